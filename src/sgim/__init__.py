@@ -1,0 +1,1 @@
+"""Socially guided intrinsic motivation."""

@@ -1,0 +1,20 @@
+"""Worlds to learn in: each a task and what its policies produce."""
+
+from sgim.environments.arm import ARMS, PlanarArm
+from sgim.environments.base import Environment, MinimalEnvironment, draw_context, execute_all
+from sgim.environments.benchmark_goals import reachable_goals, throwing_goals
+from sgim.environments.throwing import ThrowingArm
+from sgim.environments.throwing_teachers import throwing_teachers
+
+__all__ = [
+    "ARMS",
+    "Environment",
+    "MinimalEnvironment",
+    "PlanarArm",
+    "ThrowingArm",
+    "draw_context",
+    "execute_all",
+    "reachable_goals",
+    "throwing_goals",
+    "throwing_teachers",
+]

@@ -1,0 +1,43 @@
+"""Fixed goals to measure repertoires by, independent of any learning."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from sgim.environments.arm import ARMS
+from sgim.environments.tables import read_table
+from sgim.errors import unknown
+from sgim.records import Goal
+
+THROWING_TABLE = "throwing_goals.csv"
+PLACING_GOALS = 100
+
+
+def throwing_goals() -> list[Goal]:
+    """Throws spread over what can be reached, then 100 angles spread evenly over the circle.
+
+    The throws are one reached point in each of 20 x 15 tiles of the throwing box, where the tile
+    was reached twice or more by a large pool of movements.
+    """
+    throws = [Goal("throw", point) for point in read_table(THROWING_TABLE)]
+    angles = -np.pi + (np.arange(PLACING_GOALS) + 0.5) * 2 * np.pi / PLACING_GOALS
+    return throws + [Goal("place", angles[k : k + 1]) for k in range(PLACING_GOALS)]
+
+
+def reachable_goals(name: str) -> list[Goal]:
+    """About 100 positions spread over what an arm's hand can reach within its goal box.
+
+    Args:
+        name: A key of `ARMS`.
+
+    Raises:
+        UnknownNameError: If no arm has that name.
+    """
+    if name not in ARMS:
+        raise unknown("arm", name, ARMS)
+    return [Goal("hand", point) for point in read_table(arm_table(name))]
+
+
+def arm_table(name: str) -> str:
+    """Name of the table that holds an arm's goals."""
+    return f"arm_goals_{name}.csv"

@@ -1,0 +1,171 @@
+"""Episodic memory: every trial, and the nearest ones to a goal or to a policy."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sgim.memory.columns import Column
+from sgim.memory.neighbours import NearestNeighbours
+from sgim.records import Trial
+from sgim.spaces import Box, FloatArray, Space
+from sgim.task import Task
+
+IntArray = NDArray[np.int64]
+
+
+class PointColumn:
+    """The points of one space, in order: rows of numbers for a box, objects for other spaces."""
+
+    __slots__ = ("_box", "_objects", "_vectors", "space")
+
+    def __init__(self, space: Space) -> None:
+        self.space = space
+        self._box = space if isinstance(space, Box) else None
+        self._vectors = Column(space.dimension or 0, np.float64) if self._box else None
+        self._objects: list[Any] = []
+
+    def append(self, point: Any) -> None:
+        """Add a checked point."""
+        if self._vectors is not None:
+            self._vectors.append(point)
+        else:
+            self._objects.append(point)
+
+    def __getitem__(self, row: int) -> Any:
+        if self._vectors is not None:
+            return self._vectors.rows[row].copy()
+        return self._objects[row]
+
+    def encoded(self, rows: IntArray | slice) -> FloatArray:
+        """Points of these rows scaled to the unit box, shape ``(n, dimension)``."""
+        if self._box is not None and self._vectors is not None:
+            return self._box.encode(self._vectors.rows[rows])
+        chosen = (
+            self._objects[rows] if isinstance(rows, slice) else [self._objects[i] for i in rows]
+        )
+        return np.array([self.space.encode(p) for p in chosen]).reshape(
+            len(chosen), self.space.dimension or 0
+        )
+
+
+class KindMemory:
+    """The trials that produced one kind of outcome.
+
+    Row ``i`` is the i-th such trial. The key of a row is its outcome scaled to the unit box,
+    followed by its context scaled likewise: contexts and outcomes are scaled apart, and
+    distances are Euclidean over both. Kinds whose space cannot encode its points have outcomes
+    but no keys and no neighbours.
+
+    Args:
+        outcome_space: The kind's space.
+        context_space: The task's context space, or None.
+        policies: The memory's column of policies, for neighbours in policy space.
+    """
+
+    def __init__(
+        self, outcome_space: Space, context_space: Space | None, policies: PointColumn
+    ) -> None:
+        self.dimension = outcome_space.dimension
+        self.outcomes = PointColumn(outcome_space)
+        self.trials = Column(0, np.int64)
+        context_dimension = (context_space.dimension or 0) if context_space else 0
+        self.keys = Column((self.dimension or 0) + context_dimension, np.float64)
+        self._index = NearestNeighbours(max(1, self.keys.width))
+        self._policies = policies
+        self._policy_index: NearestNeighbours | None = None
+
+    def __len__(self) -> int:
+        return len(self.trials)
+
+    def append(self, trial: int, outcome: Any, key: FloatArray | None) -> None:
+        """Add the trial of this number, its outcome of this kind, and its key if it has one."""
+        self.trials.append(trial)
+        self.outcomes.append(outcome)
+        if key is not None:
+            self.keys.append(key)
+
+    def nearest(self, key: FloatArray, k: int) -> tuple[FloatArray, IntArray]:
+        """The k rows with the nearest keys.
+
+        Returns:
+            Distances and rows, nearest first, ties by age; both of length ``min(k, n)``.
+        """
+        self._index_new()
+        return self._index.query(key, k)
+
+    def nearest_batch(self, keys: FloatArray, k: int) -> tuple[FloatArray, IntArray]:
+        """As `nearest` for keys of shape ``(m, d)``; both results have shape ``(m, min(k, n))``."""
+        self._index_new()
+        return self._index.query_batch(keys, k)
+
+    def nearest_policies(self, policy: FloatArray, k: int) -> tuple[FloatArray, IntArray]:
+        """The k rows whose policies, scaled to the unit box, are nearest to ``policy``."""
+        index = self._policy_index
+        if index is None:
+            index = self._policy_index = NearestNeighbours(self._policies.space.dimension or 0)
+        if len(index) < len(self):
+            index.extend(self.encoded_policies(slice(len(index), len(self))))
+        return index.query(policy, k)
+
+    def encoded_policies(self, rows: IntArray | slice) -> FloatArray:
+        """The policies of these rows scaled to the unit box, shape ``(n, policy dimension)``."""
+        return self._policies.encoded(self.trials.rows[rows])
+
+    def _index_new(self) -> None:
+        known = len(self._index)
+        if known < len(self.keys):
+            self._index.extend(self.keys.rows[known:])
+
+
+class Memory:
+    """All trials of a learner, in the order they were told.
+
+    Args:
+        task: The task whose trials are remembered.
+    """
+
+    def __init__(self, task: Task) -> None:
+        self.task = task
+        self.policies = PointColumn(task.policy_space)
+        self._contexts = PointColumn(task.context_space) if task.context_space else None
+        self.kinds = {
+            kind: KindMemory(space, task.context_space, self.policies)
+            for kind, space in task.outcome_spaces.items()
+        }
+        self._length = 0
+
+    def __len__(self) -> int:
+        return self._length
+
+    def add(self, trial: Trial) -> int:
+        """Remember a checked trial; returns its number."""
+        number = self._length
+        self.policies.append(trial.policy)
+        if self._contexts is not None:
+            self._contexts.append(trial.context)
+        for kind, point in trial.outcome.items():
+            memory = self.kinds[kind]
+            key = None if memory.dimension is None else self.key(kind, point, trial.context)
+            memory.append(number, point, key)
+        self._length = number + 1
+        return number
+
+    def key(self, kind: str, point: Any, context: Any) -> FloatArray:
+        """The key of an outcome or goal of this kind in this context (see `KindMemory`)."""
+        vector = self.task.outcome_spaces[kind].encode(point)
+        if self.task.context_space is None:
+            return vector
+        return np.concatenate((vector, self.task.context_space.encode(context)))
+
+    def trial(self, number: int) -> Trial:
+        """The trial of this number, 0 ≤ number < len(self)."""
+        outcome = {}
+        for kind, memory in self.kinds.items():
+            row = int(np.searchsorted(memory.trials.rows, number))
+            if row < len(memory) and memory.trials.rows[row] == number:
+                outcome[kind] = memory.outcomes[row]
+        context = None if self._contexts is None else self._contexts[number]
+        return Trial(self.policies[number], outcome, context)

@@ -1,0 +1,253 @@
+"""A partition of goals (and contexts) into regions of different interest, with a list per mode."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any, Literal
+
+import numpy as np
+
+from sgim.outcome.interest import EpisodeReport
+from sgim.outcome.progress import InterestMeasure, Record
+from sgim.records import Goal
+from sgim.spaces import Box, FloatArray, Space
+from sgim.streams import Streams
+
+
+class Region:
+    """A box of goals of one kind: a leaf of the tree, or an inner node after it was split.
+
+    Attributes:
+        kind: Goal kind.
+        low: Lower corner in the unit box, goal coordinates first, then context coordinates.
+        high: Upper corner.
+        leaf: Its row in the map's table of interests, while it is a leaf.
+        records: For each mode, what was attempted here, oldest first.
+        children: The two halves below and above ``cut`` along ``axis``, once split.
+    """
+
+    __slots__ = ("axis", "children", "cut", "high", "kind", "leaf", "low", "records")
+
+    def __init__(self, kind: str, low: FloatArray, high: FloatArray, leaf: int, modes: int) -> None:
+        self.kind = kind
+        self.low = low
+        self.high = high
+        self.leaf = leaf
+        self.records: list[list[Record]] = [[] for _ in range(modes)]
+        self.axis = 0
+        self.cut = 0.0
+        self.children: tuple[Region, Region] | None = None
+
+
+class RegionTree:
+    """Interest over regions and modes (thesis algorithms 3.1.2 and 4.3.2).
+
+    Every kind starts as one region. A region whose list for one mode exceeds ``capacity`` is
+    split where that best separates different interests. A goal and a mode are chosen by one of
+    three rules: ``uniform`` over everything, ``interesting``: a (region, mode) pair with
+    probability proportional to its interest and a goal anywhere in that region, or
+    ``worst_point``: the same, and a goal near the least competent one attempted there.
+
+    Args:
+        goal_spaces: Kind → goal space; each must be a `Box`.
+        modes: Mode name → cost κ, by which interest is divided.
+        measure: Turns records into interest.
+        streams: Random streams, for the candidate splits.
+        context_space: The task's context space if there is one; it must be a `Box`.
+        capacity: Most records of one mode in a region (g_max).
+        candidates: Random splits to choose among (m).
+        probabilities: Of the rules uniform, interesting, worst_point.
+        prior: Interest of pairs not yet tried, before division by the cost.
+        staleness: Interest, before division by the cost, that a pair regains with age.
+        patience: Episodes in which it regains 63 % of that.
+        credit: Whether an episode counts where its goal was ``chosen``, or at what it ``pursued``.
+
+    Raises:
+        TypeError: If a goal or context space is not a `Box`.
+    """
+
+    def __init__(
+        self,
+        goal_spaces: Mapping[str, Space],
+        modes: Mapping[str, float],
+        measure: InterestMeasure,
+        streams: Streams,
+        *,
+        context_space: Space | None = None,
+        capacity: int = 10,
+        candidates: int = 20,
+        probabilities: tuple[float, float, float] = (0.05, 0.7, 0.25),
+        prior: float = 0.3,
+        staleness: float = 0.0,
+        patience: float = 100.0,
+        credit: Literal["chosen", "pursued"] = "pursued",
+    ) -> None:
+        for what, space in [*goal_spaces.items(), ("context", context_space or Box(0, 1))]:
+            if not isinstance(space, Box):
+                raise TypeError(f"a region tree needs boxes, but {what!r} is {space!r}")
+        self.spaces: dict[str, Box] = {k: s for k, s in goal_spaces.items() if isinstance(s, Box)}
+        self.context_space = context_space
+        self.modes = {name: i for i, name in enumerate(modes)}
+        self.costs = np.array(list(modes.values()), dtype=np.float64)
+        self.measure = measure
+        self.streams = streams
+        self.capacity = capacity
+        self.candidates = candidates
+        self.probabilities = probabilities
+        self.prior = prior
+        self.staleness = staleness
+        self.patience = patience
+        self.credit = credit
+        contexts = (context_space.dimension or 0) if context_space else 0
+        self.leaves: list[Region] = []
+        self._interest = np.empty((64, len(self.modes)))
+        self._tried = np.empty((64, len(self.modes)))
+        self._episode = 0
+        self.roots = {}
+        for kind, box in self.spaces.items():
+            d = box.dimension + contexts
+            root = self._add_leaf(Region(kind, np.zeros(d), np.ones(d), 0, len(self.modes)))
+            self._interest[root.leaf] = prior / self.costs
+            self._tried[root.leaf] = 0.0
+            self.roots[kind] = root
+
+    def _add_leaf(self, region: Region) -> Region:
+        n = len(self.leaves)
+        if n == len(self._interest):
+            self._interest = np.concatenate((self._interest, np.empty_like(self._interest)))
+            self._tried = np.concatenate((self._tried, np.empty_like(self._tried)))
+        region.leaf = n
+        self.leaves.append(region)
+        return region
+
+    def interests(self) -> FloatArray:
+        """Interest of every leaf and mode, shape ``(leaves, modes)``, staleness included."""
+        n = len(self.leaves)
+        interest = self._interest[:n]
+        if self.staleness:
+            age = self._tried[:n] - self._episode
+            regained = -np.expm1(age / self.patience)
+            return interest + regained * (self.staleness / self.costs)
+        return interest.copy()
+
+    def region_of(self, kind: str, place: Sequence[float] | FloatArray) -> Region:
+        """The leaf that contains a place of the unit box."""
+        region = self.roots[kind]
+        while region.children is not None:
+            region = region.children[place[region.axis] > region.cut]
+        return region
+
+    def update(self, report: EpisodeReport) -> None:
+        """Add the episode's progress to its region and mode; split the region if it is full."""
+        self._episode = max(self._episode, report.episode + 1)
+        mode = self.modes.get(report.mode)
+        goal = report.chosen if self.credit == "chosen" else report.pursued
+        if mode is None or goal.kind not in self.spaces:
+            return
+        place = self._place(goal, report.context)
+        if not all(0.0 <= x <= 1.0 for x in place):
+            return
+        region = self.region_of(goal.kind, place)
+        records = region.records[mode]
+        records.append(Record(place, self.measure.progress(report), report.after))
+        self._interest[region.leaf, mode] = self.measure.interest(records) / self.costs[mode]
+        self._tried[region.leaf, mode] = self._episode
+        if len(records) > self.capacity and not self._split(region, mode):
+            del records[0]
+
+    def _place(self, goal: Goal, context: Any) -> tuple[float, ...]:
+        place: list[float] = self.spaces[goal.kind].encode(goal.point).tolist()
+        if self.context_space is not None:
+            place += self.context_space.encode(context).tolist()
+        return tuple(place)
+
+    def _split(self, region: Region, mode: int) -> bool:
+        """Split where n₁ · n₂ · |interest₁ − interest₂| is largest among random candidates."""
+        rng = self.streams("interest/split", len(self.leaves))
+        records, dimension = region.records[mode], len(region.low)
+        best_quality, best = -1.0, None
+        axes = rng.integers(dimension, size=self.candidates).tolist()
+        for axis, share in zip(axes, rng.random(self.candidates).tolist(), strict=True):
+            cut = region.low[axis] + share * (region.high[axis] - region.low[axis])
+            below = [r for r in records if r.place[axis] <= cut]
+            above = [r for r in records if r.place[axis] > cut]
+            if below and above:
+                gap = abs(self.measure.interest(below) - self.measure.interest(above))
+                quality = len(below) * len(above) * gap
+                if quality > best_quality:
+                    best_quality, best = quality, (axis, float(cut))
+        if best is None:
+            return False
+        self._divide(region, *best)
+        return True
+
+    def _divide(self, region: Region, axis: int, cut: float) -> None:
+        middle_high, middle_low = region.high.copy(), region.low.copy()
+        middle_high[axis] = middle_low[axis] = cut
+        count = len(self.modes)
+        lower = Region(region.kind, region.low, middle_high, region.leaf, count)
+        upper = self._add_leaf(Region(region.kind, middle_low, region.high, 0, count))
+        self.leaves[region.leaf] = lower
+        self._interest[upper.leaf] = self._interest[region.leaf]
+        self._tried[upper.leaf] = self._tried[region.leaf]
+        for i, records in enumerate(region.records):
+            for child in (lower, upper):
+                above = child is upper
+                child.records[i] = [r for r in records if (r.place[axis] > cut) == above]
+                if child.records[i]:
+                    interest = self.measure.interest(child.records[i]) / self.costs[i]
+                    self._interest[child.leaf, i] = interest
+        region.axis, region.cut, region.children = axis, cut, (lower, upper)
+        region.records = []
+
+    def choose(
+        self, rng: np.random.Generator, modes: Sequence[str], context: Any
+    ) -> tuple[Goal, str]:
+        """Choose a goal and one of ``modes`` (thesis section 4.3.2.4, eq. 4.4)."""
+        rule, pick, *place = rng.random(2 + max(len(r.low) for r in self.roots.values())).tolist()
+        uniform, interesting, _ = self.probabilities
+        if rule < uniform:
+            kinds = list(self.spaces)
+            kind = kinds[int(pick * len(kinds))]
+            mode = modes[int(rng.integers(len(modes)))]
+            return Goal(kind, self.spaces[kind].sample(rng)), mode
+        region, mode = self._pick(pick, modes, context)
+        d = self.spaces[region.kind].dimension
+        low, high = region.low[:d], region.high[:d]
+        point = low + np.array(place[:d]) * (high - low)
+        if rule >= uniform + interesting:
+            point = self._near_worst(region, self.modes[mode], point)
+        return Goal(region.kind, self.spaces[region.kind].decode(point)), mode
+
+    def _pick(self, pick: float, modes: Sequence[str], context: Any) -> tuple[Region, str]:
+        columns = [self.modes[m] for m in modes]
+        interest = self.interests()
+        if len(columns) < interest.shape[1]:
+            interest = interest[:, columns]
+        leaves = None
+        if self.context_space is not None:
+            place = np.clip(self.context_space.encode(context), 0.0, 1.0)
+            c = len(place)
+            leaves = [
+                r.leaf
+                for r in self.leaves
+                if (r.low[-c:] <= place).all() and (place <= r.high[-c:]).all()
+            ]
+            interest = interest[leaves]
+        weights = interest.ravel() - interest.min()
+        cumulated = weights.cumsum()
+        total = cumulated[-1]
+        if total > 0:
+            chosen = min(int(cumulated.searchsorted(pick * total, "right")), len(weights) - 1)
+        else:
+            chosen = int(pick * len(weights))
+        row, column = divmod(chosen, len(columns))
+        return self.leaves[row if leaves is None else leaves[row]], modes[column]
+
+    def _near_worst(self, region: Region, mode: int, elsewhere: FloatArray) -> FloatArray:
+        """A point of the region a tenth of the way from its worst point to a random one."""
+        records = region.records[mode] or [r for records in region.records for r in records]
+        if not records:
+            return elsewhere
+        worst = min(records, key=lambda r: r.competence).place[: len(elsewhere)]
+        return np.array(worst) + 0.1 * (elsewhere - worst)

@@ -1,0 +1,154 @@
+"""What a learner knows: how well it can reach a goal, and the best policy for it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, Protocol, runtime_checkable
+
+import numpy as np
+
+from sgim.errors import SgimError
+from sgim.memory import Memory
+from sgim.memory.memory import IntArray
+from sgim.records import Goal, Solution, Trial
+from sgim.spaces import FloatArray
+
+
+class NoAnswerError(SgimError, LookupError):
+    """Nothing has been learned that could answer for this goal."""
+
+
+class CompetenceModel(Protocol):
+    """Learns from trials and says how competent the learner is for a goal (the thesis's 𝓛)."""
+
+    def update(self, trial: Trial) -> None:
+        """Learn from one more checked trial."""
+        ...
+
+    def competence(self, goal: Goal, context: Any) -> float:
+        """Competence for a goal in a context; higher is better, the range is the model's."""
+        ...
+
+    def shown_by(self, trial: Trial, goal: Goal, context: Any) -> float | None:
+        """Competence for a goal that one trial alone shows.
+
+        None if trials do not show competence one by one; an episode's progress is then
+        measured by asking `competence` again at its end.
+        """
+        ...
+
+
+@runtime_checkable
+class InverseModel(Protocol):
+    """Gives the best policy for a goal."""
+
+    def best_policy(self, goal: Goal, context: Any) -> Any:
+        """The policy to execute for a goal; raises `NoAnswerError` if nothing is known."""
+        ...
+
+    def best_policies(self, goals: Sequence[Goal], contexts: Sequence[Any]) -> list[Any]:
+        """As `best_policy` for many goals of one kind at once; None where nothing is known."""
+        ...
+
+    def solve(self, goal: Goal, context: Any) -> Solution:
+        """The policy with what it should produce, its spread, and whether that reaches."""
+        ...
+
+
+class NearestModel:
+    """Answers with the remembered trial whose outcome is nearest to the goal.
+
+    The cost of a goal is the distance, in the unit box and at most 1, to the nearest remembered
+    outcome of its kind (thesis eq. 3.3); competence is minus that, in [−1, 0] (eq. 3.8). It is
+    never worse than the nearest neighbour in a deterministic world, because it is that.
+
+    Args:
+        memory: The memory, which this model fills.
+    """
+
+    neighbourhood = 20
+
+    def __init__(self, memory: Memory) -> None:
+        self.memory = memory
+        self._cached: tuple[Goal, Any, int, tuple[FloatArray, IntArray]] | None = None
+
+    def update(self, trial: Trial) -> None:
+        """Remember the trial."""
+        self.memory.add(trial)
+
+    def nearest(self, goal: Goal, context: Any) -> tuple[FloatArray, IntArray]:
+        """Distances and rows of the `neighbourhood` outcomes nearest to the goal."""
+        cached, size = self._cached, len(self.memory)
+        if cached and cached[0] is goal and cached[1] is context and cached[2] == size:
+            return cached[3]
+        key = self.memory.key(goal.kind, goal.point, context)
+        found = self.memory.kinds[goal.kind].nearest(key, self.neighbourhood)
+        self._cached = (goal, context, size, found)
+        return found
+
+    def competence(self, goal: Goal, context: Any) -> float:
+        """Minus the distance to the nearest outcome; −1 when the kind was never produced."""
+        distances, _ = self.nearest(goal, context)
+        return -min(1.0, float(distances[0])) if len(distances) else -1.0
+
+    def shown_by(self, trial: Trial, goal: Goal, context: Any) -> float:
+        """Minus the distance from the trial's outcome to the goal; −1 if it has none."""
+        point = trial.outcome.get(goal.kind)
+        if point is None:
+            return -1.0
+        difference = self.memory.key(goal.kind, point, trial.context)
+        difference = difference - self.memory.key(goal.kind, goal.point, context)
+        return -min(1.0, float(np.sqrt(difference @ difference)))
+
+    def best_policy(self, goal: Goal, context: Any) -> Any:
+        """The policy of the nearest remembered outcome."""
+        _, rows = self.nearest(goal, context)
+        if not len(rows):
+            raise NoAnswerError(f"no trial has produced an outcome of kind {goal.kind!r} yet")
+        return self._policy(goal.kind, int(rows[0]))
+
+    def best_policies(self, goals: Sequence[Goal], contexts: Sequence[Any]) -> list[Any]:
+        """The policies of the nearest remembered outcomes, by one query for all goals."""
+        if not goals:
+            return []
+        kind = goals[0].kind
+        memory = self.memory.kinds[kind]
+        if not len(memory):
+            return [None] * len(goals)
+        keys = [self.memory.key(kind, g.point, c) for g, c in zip(goals, contexts, strict=True)]
+        _, rows = memory.nearest_batch(np.array(keys), 1)
+        return [self._policy(kind, int(row)) for row in rows[:, 0]]
+
+    def _policy(self, kind: str, row: int) -> Any:
+        return self.memory.policies[int(self.memory.kinds[kind].trials.rows[row])]
+
+    def solve(self, goal: Goal, context: Any) -> Solution:
+        """The nearest trial, and how its outcome scatters.
+
+        The spread is the standard deviation of what remains of the outcomes of the trials whose
+        policies are nearest to the answer (twice as many as a local linear map has unknowns)
+        after that map is fitted to them: noise, plus what is not linear there. A goal seems
+        reachable when the answer lies within its task's tolerance, or within two spreads.
+        """
+        policy = self.best_policy(goal, context)
+        distances, rows = self.nearest(goal, context)
+        memory = self.memory.kinds[goal.kind]
+        row, cost = int(rows[0]), min(1.0, float(distances[0]))
+        scaled = self._local_spread(goal.kind, row)
+        reach = max(self.memory.task.tolerances[goal.kind], 2 * float(np.sqrt((scaled**2).sum())))
+        span = getattr(self.memory.task.outcome_spaces[goal.kind], "range", np.ones(len(scaled)))
+        return Solution(policy, memory.outcomes[row], cost, scaled * span, cost <= reach)
+
+    def _local_spread(self, kind: str, row: int) -> FloatArray:
+        memory = self.memory.kinds[kind]
+        centre = memory.encoded_policies(np.array([row]))[0]
+        unknowns = len(centre) + 1
+        _, rows = memory.nearest_policies(centre, 2 * unknowns)
+        outcomes = memory.keys.rows[rows, : memory.dimension]
+        design = np.column_stack((np.ones(len(rows)), memory.encoded_policies(rows) - centre))
+        fit, _, rank, _ = np.linalg.lstsq(design, outcomes, rcond=1e-8)
+        freedom = len(rows) - int(rank)
+        if freedom <= 0:
+            return np.zeros(memory.dimension or 0)
+        residual = outcomes - design @ fit
+        return np.asarray(np.sqrt((residual**2).sum(axis=0) / freedom))

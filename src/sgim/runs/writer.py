@@ -1,0 +1,136 @@
+"""Appends rows to a journal's file in groups, and loses none when the disk is full."""
+
+from __future__ import annotations
+
+import sqlite3
+import time
+from contextlib import suppress
+from pathlib import Path
+
+from sgim.errors import JournalError
+from sgim.runs.journal_errors import unwritten
+from sgim.runs.journal_mode import finish
+from sgim.runs.rows import ALSO, COLUMNS, Row
+from sgim.runs.writer_lock import WriterLock
+
+GROUP_ROWS = 4096
+"""Rows that are gathered, unless the journal is durable, before they are committed together."""
+
+GROUP_SECONDS = 1.0
+"""Age in seconds of the oldest waiting row at which the next append commits."""
+
+_INSERT = f"INSERT INTO events({', '.join(COLUMNS)}) VALUES ({', '.join('?' * len(COLUMNS))})"
+
+
+class _Waiting:
+    """Rows not yet committed, and the ``seq`` of the row before them.
+
+    A commit replaces the object rather than changing it, so that an interrupt at any moment
+    leaves rows and number in agreement.
+    """
+
+    __slots__ = ("after", "rows", "since")
+
+    def __init__(self, after: int) -> None:
+        self.after = after
+        self.rows: list[Row] = []
+        self.since = 0.0
+
+
+class Writer:
+    """The one writer of a journal's file.
+
+    Args:
+        db: A connection to it, which the writer closes.
+        path: The file.
+        lock: The lock on it, which the writer releases.
+        durable: Whether each append waits until the disk has it.
+    """
+
+    def __init__(
+        self, db: sqlite3.Connection, path: Path, lock: WriterLock, *, durable: bool
+    ) -> None:
+        self._db = db
+        self._path = path
+        self._lock = lock
+        self._durable = durable
+        self._waiting = _Waiting(_last(db))
+
+    @property
+    def waiting(self) -> int:
+        """Number of events not yet committed."""
+        return sum(row[0] != ALSO for row in self._waiting.rows)
+
+    def append(self, rows: list[Row]) -> None:
+        """Add the rows of one event; commit if it is time.
+
+        Raises:
+            JournalError: As `commit`; the rows are kept.
+        """
+        waiting = self._waiting
+        if not waiting.rows:
+            waiting.since = time.monotonic()
+        waiting.rows.extend(rows)
+        if (
+            self._durable
+            or len(waiting.rows) >= GROUP_ROWS
+            or time.monotonic() - waiting.since > GROUP_SECONDS
+        ):
+            self.commit()
+
+    def commit(self) -> None:
+        """Write what is waiting, all or nothing.
+
+        Raises:
+            JournalError: If it cannot be written, or another program has written to the file.
+                What was waiting stays, and the next commit tries again.
+        """
+        db, waiting = self._db, self._waiting
+        if not waiting.rows:
+            return
+        try:
+            if db.in_transaction:  # of an attempt that could not even be rolled back
+                db.execute("ROLLBACK")
+            db.execute("BEGIN IMMEDIATE")
+            done = self._already_written()
+            db.executemany(_INSERT, waiting.rows[done:] if done else waiting.rows)
+            db.execute("COMMIT")
+        except BaseException as error:
+            with suppress(sqlite3.Error):
+                if db.in_transaction:
+                    db.execute("ROLLBACK")
+            if isinstance(error, sqlite3.Error):
+                raise unwritten(self._path, error, self.waiting) from error
+            raise
+        self._waiting = _Waiting(waiting.after + len(waiting.rows))
+
+    def _already_written(self) -> int:
+        """How many waiting rows the file has: some, if a commit was interrupted when done."""
+        after, rows = self._waiting.after, self._waiting.rows
+        last = _last(self._db)
+        if last == after:
+            return 0
+        if after < last <= after + len(rows):
+            statement = f"SELECT {', '.join(COLUMNS)} FROM events WHERE seq = ?"
+            if self._db.execute(statement, (last,)).fetchone() == rows[last - after - 1]:
+                return last - after
+        raise JournalError(
+            f"journal {self._path} has {last} rows where this process left {after}: another "
+            "program writes to it; stop one of the two"
+        )
+
+    def close(self) -> None:
+        """Commit, finish the file, and let others write.
+
+        Raises:
+            JournalError: As `commit`; the writer stays open then.
+        """
+        self.commit()
+        try:
+            finish(self._db, self._path)
+        finally:
+            self._lock.release()
+
+
+def _last(db: sqlite3.Connection) -> int:
+    return int(db.execute("SELECT coalesce(max(seq), 0) FROM events").fetchone()[0])

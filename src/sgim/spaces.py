@@ -1,0 +1,259 @@
+"""Spaces: what a policy, an outcome, a goal or a context can be.
+
+A space is anything that satisfies `Space`. Vectors in a box and labels come with the library;
+a picture, a graph or a program needs a class of the same five methods. The learner's levels
+only ever see points through their space, so a point may be any Python object. What a space can
+`encode` as a vector scaled to the unit box, the vector-based parts (memory, region trees, local
+search) can work with; a space whose ``dimension`` is None is opaque to them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any, Protocol, runtime_checkable
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from sgim.errors import SpaceError, unknown
+
+FloatArray = NDArray[np.float64]
+
+
+@runtime_checkable
+class Space(Protocol):
+    """What every space can do."""
+
+    @property
+    def dimension(self) -> int | None:
+        """Length of an encoded point; None when points cannot be encoded."""
+        ...
+
+    def check(self, value: Any, what: str = "value") -> Any:
+        """Return ``value`` as a point of this space; raise `SpaceError` naming ``what``."""
+        ...
+
+    def contains(self, point: Any) -> bool:
+        """Whether a checked point lies within the space's bounds."""
+        ...
+
+    def sample(self, rng: np.random.Generator) -> Any:
+        """Draw a point."""
+        ...
+
+    def encode(self, point: Any) -> FloatArray:
+        """Vector of shape ``(dimension,)``; points within the bounds map into the unit box."""
+        ...
+
+    def pack(self, point: Any) -> bytes:
+        """The point as bytes, for the journal."""
+        ...
+
+    def unpack(self, data: bytes) -> Any:
+        """The point that ``pack`` made these bytes of, exactly."""
+        ...
+
+    def describe(self) -> dict[str, Any]:
+        """A JSON-compatible description; two spaces are the same if theirs are equal."""
+        ...
+
+
+class Box:
+    """Vectors of real numbers between bounds.
+
+    Args:
+        low: Lower bounds, shape ``(d,)``, or one number for all.
+        high: Upper bounds, shape ``(d,)``, or one number for all; above ``low`` everywhere.
+        names: Names of the ``d`` coordinates; they also fix ``d`` when both bounds are numbers.
+        unit: Unit of the coordinates: one for all, or one each.
+
+    Raises:
+        SpaceError: If bounds are not finite, not in order, or disagree in length with the names.
+    """
+
+    def __init__(
+        self,
+        low: ArrayLike,
+        high: ArrayLike,
+        names: Sequence[str] | None = None,
+        unit: str | Sequence[str] | None = None,
+    ) -> None:
+        lows = np.atleast_1d(np.asarray(low, dtype=np.float64))
+        highs = np.atleast_1d(np.asarray(high, dtype=np.float64))
+        d = max(len(lows), len(highs), len(names) if names is not None else 1)
+        try:
+            self.low = np.broadcast_to(lows, (d,)).copy()
+            self.high = np.broadcast_to(highs, (d,)).copy()
+        except ValueError:
+            raise SpaceError(
+                f"box bounds have shapes {lows.shape} and {highs.shape}"
+                + (f" for {d} names" if names is not None else "")
+                + "; expected one number or one per coordinate"
+            ) from None
+        if not (np.isfinite(self.low).all() and np.isfinite(self.high).all()):
+            raise SpaceError(f"box bounds must be finite, got low={low!r}, high={high!r}")
+        if not (self.low < self.high).all():
+            i = int(np.argmin(self.low < self.high))
+            raise SpaceError(
+                f"box needs low < high in every coordinate, but coordinate {i} has "
+                f"low={self.low[i]:g} and high={self.high[i]:g}"
+            )
+        if names is not None and len(names) != d:
+            raise SpaceError(f"box has {d} coordinates but {len(names)} names: {list(names)}")
+        self.names = tuple(names) if names is not None else tuple(f"x{i}" for i in range(d))
+        units = (unit,) * d if isinstance(unit, str) or unit is None else tuple(unit)
+        if len(units) != d:
+            raise SpaceError(f"box has {d} coordinates but {len(units)} units: {list(units)}")
+        self.units = units
+        self.range = self.high - self.low
+        self._shape = (d,)
+        self.low.flags.writeable = self.high.flags.writeable = self.range.flags.writeable = False
+
+    @property
+    def dimension(self) -> int:
+        """Number of coordinates."""
+        return self._shape[0]
+
+    def check(self, value: Any, what: str = "value") -> FloatArray:
+        """Return ``value`` as a finite float64 vector of shape ``(d,)``; bounds may be passed."""
+        try:
+            point = np.array(value, dtype=np.float64)
+        except (TypeError, ValueError):
+            raise SpaceError(
+                f"{what} is {type(value).__name__} {value!r:.60}, expected {self._expected()}"
+            ) from None
+        if point.shape != self._shape:
+            raise SpaceError(f"{what} has shape {point.shape}, expected {self._expected()}")
+        # One sum is finite exactly when no entry is NaN or infinite, short of overflow.
+        if not np.isfinite(point.sum()) and not np.isfinite(point).all():
+            i = int(np.argmin(np.isfinite(point)))
+            raise SpaceError(
+                f"{what} has {point[i]} at {self.names[i]!r}; every coordinate must be finite"
+            )
+        return point
+
+    def _expected(self) -> str:
+        parts = [
+            n if u is None else f"{n} {u}" for n, u in zip(self.names, self.units, strict=True)
+        ]
+        shown = parts if len(parts) <= 4 else [*parts[:2], "…", parts[-1]]
+        return f"{self._shape}: ({', '.join(shown)})"
+
+    def contains(self, point: FloatArray) -> bool:
+        """Whether the point lies within the bounds, borders included."""
+        return bool((point >= self.low).all() and (point <= self.high).all())
+
+    def clip(self, point: FloatArray) -> FloatArray:
+        """The nearest point within the bounds."""
+        return np.clip(point, self.low, self.high)
+
+    def sample(self, rng: np.random.Generator) -> FloatArray:
+        """Draw uniformly between the bounds."""
+        return self.low + self.range * rng.random(self._shape[0])
+
+    def encode(self, point: FloatArray) -> FloatArray:
+        """Scale to the unit box; also for arrays of shape ``(..., d)``."""
+        scaled: FloatArray = (point - self.low) / self.range
+        return scaled
+
+    def decode(self, vector: FloatArray) -> FloatArray:
+        """The point that encodes to ``vector``; also for arrays of shape ``(..., d)``."""
+        point: FloatArray = self.low + vector * self.range
+        return point
+
+    def pack(self, point: FloatArray) -> bytes:
+        """Little-endian float64 bytes."""
+        return point.astype("<f8", copy=False).tobytes()
+
+    def unpack(self, data: bytes) -> FloatArray:
+        """The vector that was packed."""
+        return np.frombuffer(data, dtype="<f8").astype(np.float64)
+
+    def describe(self) -> dict[str, Any]:
+        """Bounds, names and units."""
+        return {
+            "space": "box",
+            "low": self.low.tolist(),
+            "high": self.high.tolist(),
+            "names": list(self.names),
+            "units": list(self.units),
+        }
+
+    def __repr__(self) -> str:
+        return f"Box({self.low.tolist()}, {self.high.tolist()}, names={list(self.names)})"
+
+
+class Choices:
+    """A finite set of labels, all equally far apart.
+
+    Args:
+        labels: The labels, each different.
+
+    Raises:
+        SpaceError: If there is no label, or one comes twice.
+    """
+
+    def __init__(self, labels: Sequence[str]) -> None:
+        self.labels = tuple(labels)
+        if not self.labels or len(set(self.labels)) != len(self.labels):
+            raise SpaceError(f"choices need one or more different labels, got {list(labels)!r}")
+        self._index = {label: i for i, label in enumerate(self.labels)}
+
+    @property
+    def dimension(self) -> int:
+        """Number of labels."""
+        return len(self.labels)
+
+    def check(self, value: Any, what: str = "value") -> str:
+        """Return ``value`` if it is one of the labels."""
+        if not isinstance(value, str) or value not in self._index:
+            raise SpaceError(f"{what}: {unknown('label', value, self.labels)}")
+        return value
+
+    def contains(self, point: str) -> bool:
+        """Whether ``point`` is one of the labels."""
+        return point in self._index
+
+    def sample(self, rng: np.random.Generator) -> str:
+        """Draw a label, all alike."""
+        return self.labels[int(rng.integers(len(self.labels)))]
+
+    def encode(self, point: str) -> FloatArray:
+        """One-hot vector scaled so that two different labels are at distance 1."""
+        vector = np.zeros(len(self.labels))
+        vector[self._index[point]] = np.sqrt(0.5)
+        return vector
+
+    def pack(self, point: str) -> bytes:
+        """The label in UTF-8."""
+        return point.encode()
+
+    def unpack(self, data: bytes) -> str:
+        """The label that was packed."""
+        return data.decode()
+
+    def describe(self) -> dict[str, Any]:
+        """The labels."""
+        return {"space": "choices", "labels": list(self.labels)}
+
+    def __repr__(self) -> str:
+        return f"Choices({list(self.labels)})"
+
+
+def space_from_description(description: Mapping[str, Any]) -> Space:
+    """Make a `Box` or `Choices` again from what its ``describe`` gave.
+
+    Raises:
+        SpaceError: If the description is of a space that is not part of the library.
+    """
+    kind = description.get("space")
+    if kind == "box":
+        return Box(
+            description["low"], description["high"], description["names"], description["units"]
+        )
+    if kind == "choices":
+        return Choices(description["labels"])
+    raise SpaceError(
+        f"a space described as {kind!r} cannot be rebuilt from a journal alone; "
+        "pass the task that has it"
+    )

@@ -1,0 +1,98 @@
+"""The upper level, meta-learning: which sampling mode, which teacher, for which goal.
+
+Choosing mode and goal together (SGIM-ACTS) and always the same mode (SAGG-RIAC, random
+policies, one teacher) are here; a fixed frequency of demonstrations (SGIM-D) and the ratio of
+progress (SGIM-IM) have the same interface.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+from typing import Any, Protocol
+
+import numpy as np
+
+from sgim.outcome.interest import EpisodeReport, InterestMap
+from sgim.records import Goal
+from sgim.strategy.modes import Mode
+
+
+class Strategy(Protocol):
+    """Chooses how each episode learns.
+
+    Attributes:
+        modes: The modes to choose among, by name.
+        alone: What an episode falls back to when its request is not answered.
+    """
+
+    modes: dict[str, Mode]
+    alone: Mode
+
+    def choose(
+        self, rng: np.random.Generator, absent: Collection[str], context: Any
+    ) -> tuple[Mode, Goal | None]:
+        """Choose a mode whose teacher is not ``absent``, and a goal for the present context."""
+        ...
+
+    def update(self, report: EpisodeReport) -> None:
+        """Learn from an episode."""
+        ...
+
+
+def _by_name(modes: Sequence[Mode]) -> dict[str, Mode]:
+    named = {mode.name: mode for mode in modes}
+    if len(named) < len(modes) or not modes:
+        raise ValueError(f"modes need different names, got {[m.name for m in modes]}")
+    return named
+
+
+class JointChoice:
+    """Chooses mode and goal at once by interest (thesis section 4.3.2.4).
+
+    With a single mode this is goal babbling driven by interest: SAGG-RIAC if that mode is
+    autonomous exploration.
+
+    Args:
+        modes: The modes to choose among.
+        interest: The map that learns which goals and modes bring progress.
+        alone: What an episode falls back to when its request is not answered, and what is done
+            while every teacher is absent; it need not be among ``modes``.
+    """
+
+    def __init__(self, modes: Sequence[Mode], interest: InterestMap, alone: Mode) -> None:
+        self.modes = _by_name(modes)
+        self.interest = interest
+        self.alone = alone
+
+    def choose(
+        self, rng: np.random.Generator, absent: Collection[str], context: Any
+    ) -> tuple[Mode, Goal | None]:
+        """Let the interest map choose among the modes that are possible now."""
+        present = [m.name for m in self.modes.values() if m.teacher not in absent]
+        goal, name = self.interest.choose(rng, present or list(self.modes), context)
+        return (self.modes[name] if present else self.alone), goal
+
+    def update(self, report: EpisodeReport) -> None:
+        """Pass the report to the interest map."""
+        self.interest.update(report)
+
+
+class Aimless:
+    """Always one mode that needs no goal.
+
+    Args:
+        mode: The mode.
+    """
+
+    def __init__(self, mode: Mode) -> None:
+        self.modes = {mode.name: mode}
+        self.alone = mode
+
+    def choose(
+        self, rng: np.random.Generator, absent: Collection[str], context: Any
+    ) -> tuple[Mode, Goal | None]:
+        """The mode, and no goal."""
+        return self.alone, None
+
+    def update(self, report: EpisodeReport) -> None:
+        """Nothing is learned."""
