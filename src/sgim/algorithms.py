@@ -14,7 +14,7 @@ sgim-acts                   all of these          region tree                 jo
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from sgim.configurations import Configuration, configuration
@@ -167,3 +167,14 @@ def make(
         "seed": seed,
     }
     return Learner(task, strategy, parts.model, seed=seed, recipe=recipe)
+
+
+def from_recipe(task: Task, recipe: Mapping[str, Any]) -> Learner:
+    """Make a learner again from its ``recipe``."""
+    return make(
+        recipe["learner"],
+        task,
+        recipe["teachers"],
+        config=configuration(recipe["configuration"]),
+        seed=recipe["seed"],
+    )

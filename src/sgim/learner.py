@@ -51,6 +51,8 @@ class Learner:
     Attributes:
         record: Called with every event as it happens; set by whoever keeps the journal.
         movements: Trials executed so far, whether they told something or failed.
+        folding: Whether recorded events are being folded, which say themselves when the
+            episodes end whose explorers are not in use.
     """
 
     def __init__(
@@ -69,6 +71,7 @@ class Learner:
         self.recipe = None if recipe is None else dict(recipe)
         self.record: Callable[[Event], None] | None = None
         self.movements = 0
+        self.folding = False
         self.ledger = Ledger()
         self._absent: set[str] = set()
         self._suggestions: deque[Goal] = deque()
@@ -109,7 +112,7 @@ class Learner:
             running = self.open(event)
             self._emit(event)
         policy = None if running.must_ask else running.mode.explorer.propose([running.episode])[0]
-        return self._plan(running, policy)
+        return self.issue(running, policy)
 
     def ask_batch(self, n: int, contexts: Sequence[Any] | None = None) -> list[Plan]:
         """Decide n plans that can be carried out side by side.
@@ -142,7 +145,7 @@ class Learner:
         for opening, running in zip(opened, chosen, strict=True):
             if opening is not None:
                 self._emit(opening)
-            plans.append(self._plan(running, None if running.must_ask else next(policies)))
+            plans.append(self.issue(running, None if running.must_ask else next(policies)))
         return plans
 
     def decide_opening(self, context: Any) -> Opened:
@@ -218,7 +221,8 @@ class Learner:
                     running.mode.explorer.begin(running.episode)
         return running
 
-    def _plan(self, running: Running, policy: Any) -> Plan:
+    def issue(self, running: Running, policy: Any) -> Plan:
+        """Give out an episode's next plan: this policy, or a request if it must ask."""
         teacher = running.mode.teacher if running.must_ask else None
         plan = self.ledger.give_out(running, policy, teacher)
         if self.record is not None:
@@ -258,7 +262,7 @@ class Learner:
                 )
         self._emit(Answered(plan.id, usable, seconds))
         self.learn_answer(plan, running, usable)
-        return self._plan(running, running.mode.explorer.propose([running.episode])[0])
+        return self.issue(running, running.mode.explorer.propose([running.episode])[0])
 
     def learn_answer(
         self, plan: Plan, running: Running, demonstration: Demonstration | None
@@ -355,10 +359,13 @@ class Learner:
         """After a plan: close its episode if that has ended, else make it idle."""
         episode = running.episode
         episode.attempts += 1
-        if running.live and (
-            episode.attempts >= running.mode.budget
-            or (episode.movements > 0 and running.mode.explorer.finished(episode))
-        ):
+        if not running.live:
+            ended = not self.folding
+        else:
+            ended = episode.attempts >= running.mode.budget or (
+                episode.movements > 0 and running.mode.explorer.finished(episode)
+            )
+        if ended:
             self.close(running)
             return True
         self.ledger.make_idle(running)

@@ -71,6 +71,17 @@ class Ledger:
         """Take the oldest open episode that waits for nothing."""
         return self.running[heapq.heappop(self._idle)]
 
+    def waits(self, running: Running) -> bool:
+        """Whether the episode is neither idle nor has a plan out, so that a plan is due."""
+        out = any(entry is running for _, entry in self.plans.values())
+        return not out and running.episode.id not in self._idle
+
+    def take(self, running: Running) -> None:
+        """Note that the episode, idle or not, is about to have a plan out."""
+        if running.episode.id in self._idle:
+            self._idle.remove(running.episode.id)
+            heapq.heapify(self._idle)
+
     def make_idle(self, running: Running) -> None:
         """Note that the episode waits for nothing."""
         heapq.heappush(self._idle, running.episode.id)

@@ -9,6 +9,7 @@ search) can work with; a space whose ``dimension`` is None is opaque to them.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from typing import Any, Protocol, runtime_checkable
 
@@ -18,6 +19,8 @@ from numpy.typing import ArrayLike, NDArray
 from sgim.errors import SpaceError, unknown
 
 FloatArray = NDArray[np.float64]
+
+_LARGEST = 1e100  # Of a coordinate's magnitude: squares of scaled differences must not overflow.
 
 
 @runtime_checkable
@@ -106,6 +109,10 @@ class Box:
             raise SpaceError(f"box has {d} coordinates but {len(units)} units: {list(units)}")
         self.units = units
         self.range = self.high - self.low
+        # The width that leads from low to high or, where rounding would pass it, just short of it.
+        self._width = self.range.copy()
+        while (beyond := self.low + self._width > self.high).any():
+            self._width[beyond] = np.nextafter(self._width[beyond], 0.0)
         self._shape = (d,)
         self.low.flags.writeable = self.high.flags.writeable = self.range.flags.writeable = False
 
@@ -115,7 +122,11 @@ class Box:
         return self._shape[0]
 
     def check(self, value: Any, what: str = "value") -> FloatArray:
-        """Return ``value`` as a finite float64 vector of shape ``(d,)``; bounds may be passed."""
+        """Return ``value`` as a finite float64 vector of shape ``(d,)``; bounds may be passed.
+
+        Magnitudes above 1e100, such as a simulation that diverged gives, are refused like
+        infinity.
+        """
         try:
             point = np.array(value, dtype=np.float64)
         except (TypeError, ValueError):
@@ -124,12 +135,15 @@ class Box:
             ) from None
         if point.shape != self._shape:
             raise SpaceError(f"{what} has shape {point.shape}, expected {self._expected()}")
-        # One sum is finite exactly when no entry is NaN or infinite, short of overflow.
-        if not np.isfinite(point.sum()) and not np.isfinite(point).all():
-            i = int(np.argmin(np.isfinite(point)))
-            raise SpaceError(
-                f"{what} has {point[i]} at {self.names[i]!r}; every coordinate must be finite"
-            )
+        # The norm bounds every coordinate, and is NaN or infinite if one is.
+        if not math.hypot(*point.tolist()) <= _LARGEST:
+            fine = np.abs(point) <= _LARGEST
+            if not fine.all():
+                i = int(np.argmin(fine))
+                raise SpaceError(
+                    f"{what} has {point[i]} at {self.names[i]!r}; every coordinate must be "
+                    f"finite, and at most {_LARGEST:g} in magnitude"
+                )
         return point
 
     def _expected(self) -> str:
@@ -149,7 +163,7 @@ class Box:
 
     def sample(self, rng: np.random.Generator) -> FloatArray:
         """Draw uniformly between the bounds."""
-        return self.low + self.range * rng.random(self._shape[0])
+        return self.low + self._width * rng.random(self._shape[0])
 
     def encode(self, point: FloatArray) -> FloatArray:
         """Scale to the unit box; also for arrays of shape ``(..., d)``."""
@@ -157,8 +171,11 @@ class Box:
         return scaled
 
     def decode(self, vector: FloatArray) -> FloatArray:
-        """The point that encodes to ``vector``; also for arrays of shape ``(..., d)``."""
-        point: FloatArray = self.low + vector * self.range
+        """The point that encodes to ``vector``, but for rounding; also for shape ``(..., d)``.
+
+        Vectors in the unit box give points within the bounds.
+        """
+        point: FloatArray = self.low + vector * self._width
         return point
 
     def pack(self, point: FloatArray) -> bytes:

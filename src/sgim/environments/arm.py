@@ -24,7 +24,8 @@ class PlanarArm(Environment):
 
     Args:
         joints: Number of joints, 1 or more; their angles are each relative to the link before.
-        length_ratio: Length of each link over that of the link before it, toward the tip.
+        length_ratio: Length of each link over that of the link before it; below 1, links get
+            shorter toward the tip.
         limit: Joint limit in rad, the same either way for all joints.
         low: Lower corner of the goal box in m; what is reached may lie outside the box.
         high: Upper corner of the goal box in m.
@@ -105,7 +106,7 @@ class PlanarArm(Environment):
     def execute_batch(
         self,
         policies: Sequence[Any] | FloatArray,
-        contexts: Sequence[Any] | None = None,
+        contexts: Sequence[Any] | FloatArray | None = None,
         rngs: Generators | None = None,
     ) -> list[Outcome]:
         """Take several postures, shape ``(n, joints)``; see `execute`."""
@@ -123,7 +124,9 @@ class PlanarArm(Environment):
         return [{"hand": hand} for hand in hands]
 
     def hands(
-        self, policies: Sequence[Any] | FloatArray, contexts: Sequence[Any] | None = None
+        self,
+        policies: Sequence[Any] | FloatArray,
+        contexts: Sequence[Any] | FloatArray | None = None,
     ) -> FloatArray:
         """Positions of the tip without noise, in m, shape ``(n, 2)``."""
         angles = np.array(policies, dtype=np.float64)
@@ -153,7 +156,7 @@ def _wide(joints: int, degrees: float) -> PlanarArm:
 
 
 ARMS = {
-    "2-tight": PlanarArm(2),
+    "2-tight": PlanarArm(2, limit=math.radians(150), low=(-1.0, -1.0)),
     "7-tight": PlanarArm(7),
     "7-wide": _wide(7, 60),
     "20-wide": _wide(20, 30),

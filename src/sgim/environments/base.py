@@ -8,6 +8,7 @@ from typing import Any, Protocol
 import numpy as np
 
 from sgim.records import Outcome
+from sgim.spaces import FloatArray
 from sgim.task import Task
 
 Generators = Sequence[np.random.Generator]
@@ -65,8 +66,8 @@ class Environment(MinimalEnvironment, Protocol):
 
 def execute_all(
     environment: MinimalEnvironment,
-    policies: Sequence[Any],
-    contexts: Sequence[Any] | None = None,
+    policies: Sequence[Any] | FloatArray,
+    contexts: Sequence[Any] | FloatArray | None = None,
     rngs: Generators | None = None,
 ) -> list[Outcome]:
     """`Environment.execute_batch`, or `execute` one by one in a world that lacks it."""
@@ -88,8 +89,8 @@ def draw_context(environment: MinimalEnvironment, rng: np.random.Generator) -> A
 
 def _one_by_one(
     environment: MinimalEnvironment,
-    policies: Sequence[Any],
-    contexts: Sequence[Any] | None,
+    policies: Sequence[Any] | FloatArray,
+    contexts: Sequence[Any] | FloatArray | None,
     rngs: Generators | None,
 ) -> list[Outcome]:
     n = len(policies)

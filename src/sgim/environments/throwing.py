@@ -64,9 +64,10 @@ class ThrowingArm(Environment):
         """
         # Plain floats: a hot path, where an array of one would cost several times as much.
         # Every operation here has its twin in `swing` and `flight`, in the same order.
-        values = np.asarray(policy, dtype=np.float64).tolist()
-        if len(values) != 14:
+        array = np.asarray(policy, dtype=np.float64)
+        if array.shape != (14,):
             self.task.policy_space.check(policy, "policy")
+        values = array.tolist()
         angle = speed = 0.0
         for acceleration, duration in zip(values[::2], values[1::2], strict=True):
             gain = acceleration * duration
@@ -86,7 +87,7 @@ class ThrowingArm(Environment):
     def execute_batch(
         self,
         policies: Sequence[Any] | FloatArray,
-        contexts: Sequence[Any] | None = None,
+        contexts: Sequence[Any] | FloatArray | None = None,
         rngs: Generators | None = None,
     ) -> list[Outcome]:
         """Execute several policies, shape ``(n, 14)``; bounds are not checked.

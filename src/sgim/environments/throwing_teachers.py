@@ -72,7 +72,7 @@ def throwing_demonstrations() -> list[Demonstration]:
 
 
 def select_throws(
-    policies: Sequence[Any],
+    policies: Sequence[Any] | FloatArray,
     outcomes: Sequence[Outcome],
     rng: np.random.Generator,
     count: int = 30,

@@ -109,7 +109,7 @@ class LocalSearch:
 
     def propose(self, episodes: Sequence[Episode]) -> list[Any]:
         """A random, linear or differential step for each episode."""
-        linear: list[int] = []
+        linear: dict[int, list[int]] = {}
         points: list[FloatArray] = []
         for i, episode in enumerate(episodes):
             state: _State = episode.state
@@ -120,14 +120,13 @@ class LocalSearch:
                 continue
             state.turn += 1
             if state.turn % 2 and state.count > 2:
-                linear.append(i)
+                linear.setdefault(state.keys.shape[1], []).append(i)
                 points.append(state.policies[state.best])
             else:
                 points.append(self._differential(state, draws))
-        if linear:
-            for i, point in zip(
-                linear, self._linear_steps([episodes[i].state for i in linear]), strict=True
-            ):
+        for chosen in linear.values():
+            steps = self._linear_steps([episodes[i].state for i in chosen])
+            for i, point in zip(chosen, steps, strict=True):
                 points[i] = point
         decoded = []
         for episode, point in zip(episodes, points, strict=True):

@@ -1,1 +1,8 @@
-"""TODO."""
+"""Runs: a learner in its world, with its journal, measured."""
+
+from sgim.runs.benchmark import Benchmark
+from sgim.runs.journal import Journal
+from sgim.runs.repertoire import open_repertoire
+from sgim.runs.run import Interrupted, Run, RunError
+
+__all__ = ["Benchmark", "Interrupted", "Journal", "Run", "RunError", "open_repertoire"]

@@ -191,11 +191,12 @@ class Journal:
         """
         if self._db is None:
             return
-        if self._writer is None:
-            self._db.close()
-        else:
+        if self._writer is not None:
+            self._writer.commit()
+        db, self._db = self._db, None
+        if self._writer is not None:
             self._writer.close()
-        self._db = None
+        db.close()
 
     def __enter__(self) -> Self:
         return self

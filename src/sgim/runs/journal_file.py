@@ -10,7 +10,7 @@ from typing import Any
 
 from sgim.errors import JournalError
 from sgim.runs.journal_errors import damaged, error_code, exists, explain
-from sgim.runs.journal_mode import choose_mode
+from sgim.runs.journal_mode import choose_mode, log_of
 from sgim.runs.rows import SCHEMA, to_json
 
 APPLICATION_ID = 0x5347494D
@@ -87,7 +87,7 @@ def open_file(path: Path, *, append: bool, durable: bool) -> sqlite3.Connection:
             # which replays it; readers meet damage when they come to it.
             faults = [text for (text,) in db.execute("PRAGMA quick_check(1)")]
             if faults != ["ok"]:
-                raise damaged(path, faults[0])
+                raise damaged(path, " ".join(faults[0].split()))
             choose_mode(db, path, durable=durable)
     except BaseException as error:
         if db is not None:
@@ -112,12 +112,10 @@ def _connect_reader(path: Path) -> sqlite3.Connection:
             raise
         # SQLite wants files beside one that was not finished and may not make them here. It can
         # do without if all is in the main file.
-        log = Path(f"{path.resolve()}-wal")
-        if log.exists() and log.stat().st_size > 0:
+        if log := log_of(path):
             raise JournalError(
-                f"journal {path} was not closed: its last events are in {log.name}, which cannot "
-                "be read in a directory without write permission; copy both files to one "
-                "where you can write"
+                f"journal {path} was not closed, and {log} cannot be worked in without writing; "
+                "where you can write, open it once with append=True (to copy it, copy both files)"
             ) from error
         db = connect(path, "immutable=1")
     return db
@@ -141,3 +139,17 @@ def _check(db: sqlite3.Connection, path: Path) -> None:
             f"journal {path} has schema {version}, and this version of sgim reads up to "
             f"{SCHEMA_VERSION}: a newer one wrote it; upgrade (pip install --upgrade sgim)"
         )
+    _check_length(db, path)
+
+
+def _check_length(db: sqlite3.Connection, path: Path) -> None:
+    # SQLite takes what is missing of a last page for zeros, and would make events of them.
+    db.execute("BEGIN")
+    try:
+        ((pages,),) = db.execute("PRAGMA page_count")
+        ((bytes_,),) = db.execute("PRAGMA page_size")
+        size = path.stat().st_size
+        if size < pages * bytes_ and log_of(path) is None:
+            raise damaged(path, f"{size} bytes of {pages * bytes_}")
+    finally:
+        db.execute("ROLLBACK")

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import os
 import sqlite3
 import warnings
+from contextlib import suppress
 from pathlib import Path
 
 NETWORK_FILE_SYSTEMS = frozenset(
@@ -61,6 +63,15 @@ def network_file_system(path: Path, mounts: Path = MOUNTS) -> str | None:
     return kind if kind in NETWORK_FILE_SYSTEMS else None
 
 
+def log_of(path: Path) -> str | None:
+    """Name of the file beside a journal in which some of it still is, or what undoes some."""
+    for ending in ("-wal", "-journal"):
+        with suppress(FileNotFoundError):
+            if os.stat(f"{path.resolve()}{ending}").st_size > 0:
+                return f"{path.resolve().name}{ending}"
+    return None
+
+
 def finish(db: sqlite3.Connection, path: Path) -> None:
     """Move everything into the main file and close, so that it opens where nobody may write."""
     try:
@@ -70,10 +81,9 @@ def finish(db: sqlite3.Connection, path: Path) -> None:
     except sqlite3.OperationalError:
         pass  # a reader is still connected, or the disk is full: all is committed all the same
     db.close()
-    log = Path(f"{path.resolve()}-wal")
-    if log.exists() and log.stat().st_size > 0:
+    if log := log_of(path):
         warnings.warn(
-            f"the last events of journal {path} are in {log.name}: keep both files together "
+            f"the last events of journal {path} are in {log}: keep both files together "
             "until the journal is opened and closed again",
             stacklevel=3,
         )

@@ -11,7 +11,7 @@ from typing import Any
 from sgim.errors import JournalError, SgimError
 from sgim.runs.decoders import Stored
 from sgim.runs.journal_errors import explain
-from sgim.runs.rows import COLUMNS
+from sgim.runs.rows import COLUMNS, to_json
 from sgim.task import Task, task_from_description
 
 PAGE = 8192
@@ -50,7 +50,7 @@ def recorded_task(header: Mapping[str, Any], path: Path, task: Task | None) -> T
                 f"the task of journal {path} cannot be made from the journal alone ({error}); "
                 "pass it: Journal.open(path, task, …)"
             ) from error
-    given = json.loads(json.dumps(task.describe()))
+    given = json.loads(to_json(task.describe()))
     if difference := first_difference(recorded, given):
         raise JournalError(
             f"journal {path} is of another task: {difference}; pass the task it was recorded "

@@ -120,12 +120,7 @@ class Writer:
         )
 
     def close(self) -> None:
-        """Commit, finish the file, and let others write.
-
-        Raises:
-            JournalError: As `commit`; the writer stays open then.
-        """
-        self.commit()
+        """Finish the file and let others write; what was not committed is lost."""
         try:
             finish(self._db, self._path)
         finally:

@@ -16,7 +16,7 @@ except ImportError:  # Windows: the journal still notices a second writer when i
 
 
 class WriterLock:
-    """Holds ``PATH.lock`` until `release`, or until the process ends in whatever way.
+    """Holds ``PATH.lock`` until it is released or forgotten, or the process ends in whatever way.
 
     The lock is on the file, not the file itself: one that a killed process left behind holds
     nobody up. Where the system or the file system has no such locks, nothing is held.
@@ -73,6 +73,9 @@ class WriterLock:
         if self._file is not None:
             self._path.unlink(missing_ok=True)
             self._forget()
+
+    def __del__(self) -> None:
+        self.release()
 
     def _forget(self) -> None:
         if self._file is not None:

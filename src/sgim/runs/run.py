@@ -1,0 +1,391 @@
+"""A run: drives a learner in a world with its teachers, keeps the journal, and resumes."""
+
+from __future__ import annotations
+
+import platform
+import signal
+import sys
+import threading
+import time
+import warnings
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from importlib.metadata import version
+from pathlib import Path
+from types import FrameType
+from typing import Any, Protocol
+
+import numpy as np
+
+from sgim.environments.base import MinimalEnvironment, draw_context, execute_all
+from sgim.errors import JournalError, SgimError
+from sgim.events import Evaluated, Session
+from sgim.learner import Learner
+from sgim.records import Outcome, Plan
+from sgim.runs.benchmark import Benchmark
+from sgim.runs.journal import Journal
+from sgim.runs.replay import Replayed, iterate_trials, replay
+from sgim.streams import Streams
+from sgim.teachers import Teacher
+
+
+class RunError(SgimError):
+    """The world or a teacher keeps failing; what was learned is in the journal."""
+
+
+class Interrupted(SgimError):  # noqa: N818 - not an error of the run
+    """The user asked the run to stop; everything told is in the journal."""
+
+
+class Observer(Protocol):
+    """Is told how a run goes, to show it."""
+
+    def started(self, run: Run, target: int) -> None:
+        """The run goes on until ``target`` movements."""
+        ...
+
+    def moved(self, run: Run) -> None:
+        """Some movements were made."""
+        ...
+
+    def evaluated(self, run: Run, evaluation: Evaluated) -> None:
+        """The repertoire was measured."""
+        ...
+
+    def ended(self, run: Run) -> None:
+        """The run stopped, finished or not."""
+        ...
+
+
+class Run:
+    """One learner in one world.
+
+    A journal that exists already is resumed: its events are folded into the learner, which must
+    be made as the recorded one was and have done nothing yet.
+
+    Args:
+        learner: The learner.
+        environment: The world.
+        teachers: Name → teacher, for every teacher that the learner's modes ask.
+        journal: Path of the journal; None to keep none.
+        benchmark: Measures the repertoire; None to measure nothing.
+        evaluate_every: Movements between evaluations.
+        batch: Plans to carry out side by side.
+        real: Whether the world is a real one: every event is on disk before the next thing
+            happens, what was started and never told is lost and not repeated, and decisions
+            that come out differently after a change of the library are adopted at once.
+        adopt: Whether to adopt such decisions in a simulated world too, instead of refusing.
+        about: What else to write in the journal's header, such as the experiment's name.
+
+    Attributes:
+        evaluations: All evaluations so far.
+        difference: The first decision that came out differently on resume and was adopted.
+
+    Raises:
+        SgimError: If a teacher is missing.
+        JournalError: If the journal cannot be used, or is of another run.
+        MismatchError: If a decision comes out differently on resume, and is not adopted.
+    """
+
+    most_failures = 10
+    """How many times in a row world and teachers may fail before the run stops."""
+
+    def __init__(
+        self,
+        learner: Learner,
+        environment: MinimalEnvironment,
+        teachers: Mapping[str, Teacher] | None = None,
+        *,
+        journal: str | Path | None = None,
+        benchmark: Benchmark | None = None,
+        evaluate_every: int = 1000,
+        batch: int = 1,
+        real: bool = False,
+        adopt: bool = False,
+        about: Mapping[str, Any] | None = None,
+    ) -> None:
+        self.teachers = dict(teachers or {})
+        missing = [name for name in learner.teachers if name not in self.teachers]
+        if missing:
+            raise SgimError(
+                f"the learner asks {', '.join(missing)}, but the run has "
+                f"{', '.join(self.teachers) or 'no teachers'}; pass teachers={{name: teacher}}"
+            )
+        if evaluate_every < 1 or batch < 1:
+            raise SgimError(f"evaluate_every={evaluate_every} and batch={batch} must be 1 or more")
+        self.environment = environment
+        self.benchmark = benchmark
+        self.evaluate_every = evaluate_every
+        self.batch = batch
+        self.real = real
+        self.streams = Streams(learner.seed)
+        self.failures = 0
+        self.seconds = 0.0
+        self._stopping = False
+        header = {
+            **(about or {}),
+            "recipe": learner.recipe,
+            "evaluate_every": evaluate_every,
+            "batch": batch,
+        }
+        replayed = Replayed(learner)
+        self.journal: Journal | None = None
+        if journal is not None and Path(journal).exists():
+            self.journal, replayed = _resumed(
+                Path(journal), learner, header, adopt=adopt or real, durable=real
+            )
+        elif journal is not None:
+            self.journal = Journal.create(journal, header, learner.task, durable=real)
+        self.learner = replayed.learner
+        self.evaluations = replayed.evaluations
+        self.difference = replayed.difference
+        self._unfinished_round = (replayed.round_start, replayed.round_size)
+        if self.journal is not None:
+            for event in replayed.unwritten:
+                self.journal.append(event)
+            self.learner.record = self.journal.append
+        if real:
+            for plan in self.learner.pending:
+                if plan.request is None:
+                    self.learner.lose(plan)
+
+    @property
+    def movements(self) -> int:
+        """Movements made so far."""
+        return self.learner.movements
+
+    def warm_start(self, journal: str | Path) -> int:
+        """Let the learner observe all trials of another run, before its own first.
+
+        Returns:
+            How many trials were observed.
+
+        Raises:
+            JournalError: If the other journal cannot be read, or is of another task.
+            SgimError: If this run has begun already.
+        """
+        if self.learner.ledger.next_plan:
+            raise SgimError("a warm start comes before the first movement, but this run has begun")
+        count = 0
+        with Journal.open(journal, self.learner.task, append=False) as other:
+            for trial in iterate_trials(other.events()):
+                self.learner.observe(trial)
+                count += 1
+        return count
+
+    def go(self, movements: int, observer: Observer | None = None) -> list[Evaluated]:
+        """Go on until there have been so many movements in all.
+
+        Args:
+            movements: In all, those before a resume included.
+            observer: Shows how it goes; None for silence.
+
+        Returns:
+            All evaluations so far.
+
+        Raises:
+            Interrupted: If the user stopped it; everything told is in the journal.
+            RunError: If world or teachers fail too often in a row; the same holds.
+        """
+        self._record(Session(_facts(movements, self.difference)))
+        if observer is not None:
+            observer.started(self, movements)
+        begun = time.monotonic()
+        try:
+            with self._stop_on_interrupt():
+                if self.movements % self.evaluate_every == 0:
+                    self._evaluate(observer)
+                self._continue(movements, observer)
+        finally:
+            self.seconds += time.monotonic() - begun
+            if self.journal is not None:
+                self.journal.commit()
+            if observer is not None:
+                observer.ended(self)
+        return self.evaluations
+
+    def _continue(self, target: int, observer: Observer | None) -> None:
+        start, asked = self._unfinished_round
+        self._unfinished_round = (0, 0)
+        if self.learner.pending and self.movements < target:
+            missing = 0
+            if start == self.movements:
+                missing = max(0, min(self.batch, target - start) - asked)
+            self._round(missing, observer)
+        shown = time.monotonic()
+        while self.movements < target:
+            if self._stopping:
+                raise Interrupted(f"stopped at {self.movements} of {target} movements")
+            self._round(min(self.batch, target - self.movements), observer)
+            if observer is not None and time.monotonic() - shown > 0.1:
+                observer.moved(self)
+                shown = time.monotonic()
+
+    def _round(self, n: int, observer: Observer | None) -> None:
+        """Ask for n plans, and carry out all that are out."""
+        learner = self.learner
+        if n == 1 and not learner.ledger.plans:
+            plan = learner.ask(self._contexts(1)[0])
+            if plan.request is not None:
+                plan = self._answered(plan)
+            self._tell(plan, self._executed(plan), observer)
+            return
+        if n > 0:
+            learner.ask_batch(n, self._contexts(n))
+        for plan in learner.pending:
+            if plan.request is not None:
+                self._answered(plan)
+        plans = learner.pending
+        for plan, outcome in zip(plans, self._executed_all(plans), strict=True):
+            self._tell(plan, outcome, observer)
+
+    def _contexts(self, n: int) -> list[Any]:
+        if self.environment.task.context_space is None:
+            return [None] * n
+        first = self.learner.ledger.next_plan
+        return [
+            draw_context(self.environment, self.streams("context", first + i)) for i in range(n)
+        ]
+
+    def _answered(self, plan: Plan) -> Plan:
+        request = plan.request
+        assert request is not None
+        try:
+            rng = self.streams(f"teacher/{request.teacher}", request.index)
+            demonstration = self.teachers[request.teacher].demonstrate(request.goal, rng)
+            following = self.learner.answer(plan, demonstration)
+        except JournalError:
+            raise
+        except Exception as error:
+            self._failed(f"teacher {request.teacher!r}", error)
+            return self.learner.answer(plan, None)
+        return following
+
+    def _executed(self, plan: Plan) -> Outcome | Exception:
+        environment = self.environment
+        rng = None if environment.deterministic else self.streams("environment", plan.id)
+        try:
+            return environment.execute(plan.policy, plan.context, rng)
+        except Exception as error:
+            return error
+
+    def _executed_all(self, plans: Sequence[Plan]) -> Sequence[Outcome | Exception]:
+        environment = self.environment
+        if len(plans) == 1:
+            return [self._executed(plans[0])]
+        rngs = None
+        if not environment.deterministic:
+            rngs = [self.streams("environment", plan.id) for plan in plans]
+        contexts = [p.context for p in plans] if environment.task.context_space else None
+        try:
+            return execute_all(environment, [p.policy for p in plans], contexts, rngs)
+        except Exception:
+            return [self._executed(plan) for plan in plans]
+
+    def _tell(self, plan: Plan, outcome: Outcome | Exception, observer: Observer | None) -> None:
+        if isinstance(outcome, Exception):
+            self._failed("the world", outcome, plan)
+        else:
+            try:
+                self.learner.tell(plan, outcome)
+                self.failures = 0
+            except JournalError:
+                raise
+            except SgimError as error:
+                self._failed("the world", error, plan)
+        if self.learner.movements % self.evaluate_every == 0:
+            self._evaluate(observer)
+
+    def _failed(self, who: str, error: Exception, plan: Plan | None = None) -> None:
+        """Note a failure; give up after too many in a row."""
+        if plan is not None:
+            self.learner.fail(plan, f"{type(error).__name__}: {error}")
+        if self.failures == 0:
+            warnings.warn(f"{who} failed: {type(error).__name__}: {error}", stacklevel=3)
+        self.failures += 1
+        if self.failures >= self.most_failures:
+            raise RunError(
+                f"{who} failed {self.failures} times in a row, last with "
+                f"{type(error).__name__}: {error}. Nothing told is lost; mend it and resume."
+            ) from error
+
+    def _evaluate(self, observer: Observer | None) -> None:
+        if self.benchmark is None:
+            return
+        if self.evaluations and self.evaluations[-1].movements >= self.movements:
+            return
+        index = self.movements // self.evaluate_every
+        errors = self.benchmark.evaluate(self.learner, self.streams, index)
+        evaluation = Evaluated(self.movements, errors)
+        self._record(evaluation)
+        self.evaluations.append(evaluation)
+        if observer is not None:
+            observer.evaluated(self, evaluation)
+
+    def _record(self, event: Evaluated | Session) -> None:
+        if self.journal is not None:
+            self.journal.append(event)
+
+    @contextmanager
+    def _stop_on_interrupt(self) -> Iterator[None]:
+        """Let Ctrl-C end the run between two movements; a second one ends it at once."""
+        if threading.current_thread() is not threading.main_thread():
+            yield
+            return
+        previous = signal.getsignal(signal.SIGINT)
+
+        def stop(number: int, frame: FrameType | None) -> None:
+            if self._stopping:
+                raise KeyboardInterrupt
+            self._stopping = True
+
+        signal.signal(signal.SIGINT, stop)
+        try:
+            yield
+        finally:
+            signal.signal(signal.SIGINT, previous)
+            self._stopping = False
+
+    def close(self) -> None:
+        """Close the journal; it then opens also where nobody may write."""
+        self.learner.record = None
+        if self.journal is not None:
+            self.journal.close()
+
+    def __enter__(self) -> Run:
+        return self
+
+    def __exit__(self, *exception: object) -> None:
+        self.close()
+
+
+def _resumed(
+    path: Path, learner: Learner, header: Mapping[str, Any], *, adopt: bool, durable: bool
+) -> tuple[Journal, Replayed]:
+    journal = Journal.open(path, learner.task, append=True, durable=durable)
+    try:
+        for key, mine in header.items():
+            recorded = journal.header.get(key)
+            if recorded != mine:
+                raise JournalError(
+                    f"{path} is of another run: its {key} is {recorded!r:.300}, but here it is "
+                    f"{mine!r:.300}; resume it as it was begun, or choose another path"
+                )
+        return journal, replay(learner, journal.events(), adopt=adopt)
+    except BaseException:
+        journal.close()
+        raise
+
+
+def _facts(target: int, difference: str | None) -> dict[str, Any]:
+    return {
+        "target": target,
+        "time": time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime()),
+        "sgim": version("sgim"),
+        "python": platform.python_version(),
+        "numpy": np.__version__,
+        "scipy": version("scipy"),
+        "processor": platform.machine(),
+        "platform": sys.platform,
+        "adopted": difference,
+    }
