@@ -20,7 +20,7 @@ def damaged(path: Path, fault: str) -> JournalError:
     """The error for a journal that SQLite can no longer read as a whole."""
     return JournalError(
         f"journal {path} is damaged or cut short ({fault}); take a copy of it from elsewhere, or "
-        f'salvage what is left: sqlite3 "{path}" .recover | sqlite3 salvaged.sgim'
+        "salvage what is left with the command .recover of the sqlite3 shell"
     )
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import platform
 import weakref
+from contextlib import suppress
 from pathlib import Path
 
 from sgim.errors import JournalError
@@ -18,8 +19,8 @@ except ImportError:  # Windows: the journal still notices a second writer when i
 class WriterLock:
     """Holds ``PATH.lock`` until it is released or forgotten, or the process ends in whatever way.
 
-    The lock is on the file, not the file itself: one that a killed process left behind holds
-    nobody up. Where the system or the file system has no such locks, nothing is held.
+    What counts is the lock on that file, not that it exists: one that a killed process left
+    behind holds nobody up. Where the system or the file system has no such locks, nothing is held.
 
     Args:
         path: The journal to lock, resolved.
@@ -58,8 +59,9 @@ class WriterLock:
                 self._file = file
             else:  # its holder removed it between our opening and locking it
                 os.close(file)
-        os.ftruncate(self._file, 0)
-        os.pwrite(self._file, f"process {os.getpid()} on {platform.node()}".encode(), 0)
+        with suppress(OSError):  # a full disk cannot take the note, but the lock holds
+            os.ftruncate(self._file, 0)
+            os.pwrite(self._file, f"process {os.getpid()} on {platform.node()}".encode(), 0)
         _held.add(self)
 
     def _is_current(self, file: int) -> bool:
@@ -71,7 +73,8 @@ class WriterLock:
     def release(self) -> None:
         """Let others write, and remove the file."""
         if self._file is not None:
-            self._path.unlink(missing_ok=True)
+            with suppress(OSError):  # left behind, it does no harm
+                self._path.unlink()
             self._forget()
 
     def __del__(self) -> None:
