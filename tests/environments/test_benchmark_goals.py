@@ -3,7 +3,7 @@ import pytest
 from scipy.optimize import least_squares
 
 from sgim.environments import ARMS, ThrowingArm, reachable_goals, throwing_goals
-from sgim.environments.make_data import ARM_GOALS, arm_pool, one_point_per_tile
+from sgim.environments.make_data import ARM_GOALS, one_point_per_tile
 from sgim.errors import UnknownNameError
 from sgim.spaces import FloatArray
 
@@ -35,7 +35,8 @@ def test_about_a_hundred_goals_spread_over_what_the_arm_reaches(name: str) -> No
     assert abs(len(goals) - ARM_GOALS) <= 10
     assert all(arm.task.outcome_spaces["hand"].contains(goal) for goal in goals)
     assert np.hypot(*goals.T).max() <= 1 + 1e-6
-    reached = arm_pool(arm, np.random.default_rng(5), 2000)
+    postures = np.random.default_rng(5).uniform(-arm.limit, arm.limit, (2000, arm.joints))
+    reached = arm.hands(postures)
     inside = reached[[arm.goal_box.contains(hand) for hand in reached]]
     gaps = np.linalg.norm(inside[:, None] - goals, axis=2).min(axis=1)
     assert np.quantile(gaps, 0.99) < 0.2
@@ -64,13 +65,5 @@ def test_goals_of_an_unknown_arm_are_refused_with_the_nearest_name() -> None:
 
 def test_a_tile_gives_its_middlemost_point_if_reached_twice() -> None:
     pool = np.array([[0.1, 0.1], [0.4, 0.6], [1.5, 0.5], [2.5, 0.5], [-0.5, 0.5], [0.9, 0.9]])
-    chosen = one_point_per_tile(pool, np.zeros(2), np.ones(2), (2, 1))
+    chosen = one_point_per_tile(pool, np.zeros(2), np.ones(2), (2, 1), 2)
     np.testing.assert_array_equal(chosen, [[0.4, 0.6]])
-
-
-def test_structured_postures_reach_where_random_postures_of_many_joints_do_not() -> None:
-    arm = ARMS["50-wide"]
-    reached = arm_pool(arm, np.random.default_rng(0), 4000)
-    uniform, structured = reached[2000:], reached[:2000]
-    assert structured[:, 0].min() < uniform[:, 0].min()
-    assert (np.abs(structured) <= 1).all()

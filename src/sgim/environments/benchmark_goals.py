@@ -25,7 +25,10 @@ def throwing_goals() -> list[Goal]:
 
 
 def reachable_goals(name: str) -> list[Goal]:
-    """About 100 positions spread over what an arm's hand can reach within its goal box.
+    """About 100 positions spread over what an arm's hand reaches.
+
+    For tight boxes, one in each tile that random postures reach often enough; for wide ones, the
+    disc of the arm's length, whose rim is out of reach.
 
     Args:
         name: A key of `ARMS`.

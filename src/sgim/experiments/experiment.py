@@ -5,13 +5,16 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any
 
-from sgim import algorithms
+from sgim import algorithms, configurations
 from sgim.configurations import Configuration
 from sgim.environments.base import MinimalEnvironment
-from sgim.errors import SgimError, unknown
+from sgim.errors import JournalError, SgimError, UnknownNameError, unknown
 from sgim.learner import Learner
 from sgim.runs.benchmark import Benchmark
+from sgim.runs.journal import Journal
+from sgim.runs.journal_reading import header_of
 from sgim.runs.run import Run
 from sgim.teachers import Teacher
 
@@ -40,6 +43,11 @@ class Experiment:
     unit: str = "share of the outcome space"
     movements: int = 8000
 
+    @property
+    def default_learner(self) -> str:
+        """The learner that a run has when none is named."""
+        return "sgim-acts" if self.teachers else "sagg-riac"
+
     def learner(
         self, name: str, *, configuration: str | Configuration = "modern", seed: int = 0
     ) -> Learner:
@@ -47,17 +55,50 @@ class Experiment:
 
         Raises:
             UnknownNameError: If learner, teacher or configuration is unknown.
-            SgimError: If the learner needs teachers and the experiment has none.
+            SgimError: If the learner needs teachers and the experiment has none, or the other
+                way round; or if it needs one teacher and that is not named.
         """
         algorithm, colon, teacher = name.partition(":")
-        if colon and teacher not in self.teachers:
-            raise unknown(f"teacher of {self.name}", teacher, self.teachers)
-        teachers: Sequence[str] = [teacher] if colon else list(self.teachers)
         if algorithm not in algorithms.ALGORITHMS:
             raise unknown("learner", algorithm, algorithms.ALGORITHMS)
-        return algorithms.make(
-            algorithm, self.environment().task, teachers, config=configuration, seed=seed
-        )
+        if colon and teacher not in self.teachers:
+            if not self.teachers:
+                raise SgimError(f"{self.name} has no teachers; leave {teacher!r} out")
+            raise unknown(f"teacher of {self.name}", teacher, self.teachers)
+        chosen = configurations.configuration(configuration)
+        teachers: Sequence[str] = [teacher] if colon else list(self.teachers)
+        task = self.environment().task
+        try:
+            learner = algorithms.make(algorithm, task, teachers, config=chosen, seed=seed)
+        except UnknownNameError:
+            raise
+        except SgimError as error:
+            if not self.teachers:
+                raise SgimError(f"{algorithm} needs a teacher, and {self.name} has none") from error
+            shown = "; ".join(f"{algorithm}:{t} ({line})" for t, line in self.teachers.items())
+            raise SgimError(f"{algorithm} has one teacher: choose among {shown}") from error
+        if colon and not learner.teachers:
+            raise SgimError(f"{algorithm} asks no teacher; leave {teacher!r} out")
+        return learner
+
+    def label(self, learner: Learner) -> str | None:
+        """The name on the command line of a learner; None if it has no recipe."""
+        if learner.recipe is None:
+            return None
+        name: str = learner.recipe["learner"]
+        asked = [teacher for teacher in self.teachers if teacher in learner.teachers]
+        return f"{name}:{','.join(asked)}" if 0 < len(asked) < len(self.teachers) else name
+
+    def journal_path(
+        self,
+        learner: str,
+        seed: int = 0,
+        configuration: str = "modern",
+        folder: str | Path = "runs",
+    ) -> Path:
+        """Where the journal of such a run is by default: ``runs/throwing-mimicry-T1-0.sgim``."""
+        kind = "" if configuration == "modern" else f"-{configuration}"
+        return Path(folder) / f"{self.name}-{learner.replace(':', '-')}{kind}-{seed}.sgim"
 
     def run(
         self,
@@ -65,11 +106,24 @@ class Experiment:
         journal: str | Path | None = None,
         *,
         batch: int = 1,
+        evaluate_every: int = 1000,
         adopt: bool = False,
+        about: Mapping[str, Any] | None = None,
     ) -> Run:
-        """A run of this experiment, resumed if the journal exists."""
+        """A run of this experiment, resumed if the journal exists.
+
+        Args:
+            learner: The learner, which has done nothing yet.
+            journal: Path of the journal; None to keep none.
+            batch: Plans to carry out side by side.
+            evaluate_every: Movements between evaluations.
+            adopt: Whether to adopt decisions that come out differently on resume.
+            about: What else to write in the journal's header.
+        """
         environment = self.environment()
         made = self.make_teachers()
+        label = self.label(learner)
+        named = {} if label is None else {"learner": label}
         return Run(
             learner,
             environment,
@@ -77,13 +131,114 @@ class Experiment:
             journal=journal,
             benchmark=self.benchmark(environment),
             batch=batch,
+            evaluate_every=evaluate_every,
             adopt=adopt,
-            about={"experiment": self.name},
+            about={"experiment": self.name, **named, **(about or {})},
         )
 
-    def resume(self, journal: str | Path, recipe: Mapping[str, object], **options: bool) -> Run:
-        """A recorded run of this experiment, made again from the recipe in its journal."""
-        if recipe is None:
-            raise SgimError("the journal has no recipe for its learner")
-        learner = algorithms.from_recipe(self.environment().task, recipe)
-        return self.run(learner, journal, **options)
+    def start(
+        self,
+        name: str,
+        journal: str | Path,
+        *,
+        configuration: str = "modern",
+        seed: int = 0,
+        batch: int = 1,
+        evaluate_every: int = 1000,
+        warm_start: str | Path | None = None,
+    ) -> Run:
+        """Begin the run of a named learner, or go on with it if the journal has it already.
+
+        Args:
+            name: The learner's name on the command line.
+            journal: Path of the journal. One that exists keeps its own ``evaluate_every``.
+            configuration: Name of the learner's configuration.
+            seed: Of the learner and the world.
+            batch: Plans to carry out side by side.
+            evaluate_every: Movements between evaluations.
+            warm_start: Journal of another run of the same task whose trials are observed first.
+
+        Raises:
+            JournalError: If the journal has another run, or one of the two cannot be used.
+            SgimError: If the learner cannot be made, as `learner` says.
+        """
+        learner = self.learner(name, configuration=configuration, seed=seed)
+        about = {} if warm_start is None else {"warm_start": str(warm_start)}
+        if Path(journal).exists():
+            self.require_same(journal, learner, batch, warm_start)
+            evaluate_every = header_of(journal).get("evaluate_every", evaluate_every)
+        elif warm_start is not None:
+            Journal.open(warm_start, learner.task, append=False).close()
+        exists = Path(journal).exists()
+        run = self.run(learner, journal, batch=batch, evaluate_every=evaluate_every, about=about)
+        if warm_start is not None and not exists:
+            run.warm_start(warm_start)
+        return run
+
+    def require_same(
+        self,
+        journal: str | Path,
+        learner: Learner,
+        batch: int = 1,
+        warm_start: str | Path | None = None,
+    ) -> None:
+        """Check that a journal has the run of such a learner.
+
+        Raises:
+            JournalError: If it has another; the message says the first difference.
+        """
+        header, recipe = header_of(journal), learner.recipe or {}
+        recorded = header.get("recipe") or {}
+        pairs = {
+            "experiment": (header.get("experiment"), self.name),
+            "learner": (header.get("learner"), self.label(learner)),
+            "seed": (recorded.get("seed"), recipe.get("seed")),
+            "configuration": (
+                (recorded.get("configuration") or {}).get("name"),
+                (recipe.get("configuration") or {}).get("name"),
+            ),
+            "batch": (header.get("batch"), batch),
+            "warm start": (
+                header.get("warm_start"),
+                None if warm_start is None else str(warm_start),
+            ),
+        }
+        for what, (there, here) in pairs.items():
+            if there != here:
+                raise JournalError(
+                    f"{journal} has another run: its {what} is {there}, but here it is {here}; "
+                    f"choose another path, or go on with it as it is (`sgim resume {journal}`)"
+                )
+
+    def resume(self, journal: str | Path, *, adopt: bool = False) -> Run:
+        """A recorded run of this experiment, made again from its journal.
+
+        Args:
+            journal: Its path.
+            adopt: Whether to adopt decisions that come out differently now.
+
+        Raises:
+            JournalError: If it cannot be read, or does not say how its learner is made.
+            MismatchError: If a decision comes out differently and is not adopted.
+        """
+        header = header_of(journal)
+        if header.get("recipe") is None:
+            raise JournalError(
+                f"{journal} does not say how its learner is made; go on with it from Python: "
+                "sgim.Run(learner, environment, teachers, journal=…)"
+            )
+        learner = algorithms.from_recipe(self.environment().task, header["recipe"])
+        about = {"warm_start": header["warm_start"]} if "warm_start" in header else {}
+        return self.run(
+            learner,
+            journal,
+            batch=header["batch"],
+            evaluate_every=header["evaluate_every"],
+            adopt=adopt,
+            about=about,
+        )
+
+
+def evaluation_interval(movements: int) -> int:
+    """Movements between evaluations: 1000, or a quarter of a shorter run."""
+    return min(1000, max(1, movements // 4))

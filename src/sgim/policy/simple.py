@@ -101,11 +101,14 @@ class NoisyNearest(Stateless):
     Args:
         model: Whose nearest neighbours to start from.
         noise: Standard deviation, as a share of each policy coordinate's range.
+        bootstrap: How many policies to draw at random before, so that the first neighbours are
+            not all offspring of one policy.
     """
 
-    def __init__(self, model: NearestModel, noise: float = 0.1) -> None:
+    def __init__(self, model: NearestModel, noise: float = 0.1, bootstrap: int = 10) -> None:
         self.model = model
         self.noise = noise
+        self.bootstrap = bootstrap
         self.space = model.memory.task.policy_space
 
     def propose(self, episodes: Sequence[Episode]) -> list[Any]:
@@ -114,7 +117,8 @@ class NoisyNearest(Stateless):
 
     def _vary(self, episode: Episode) -> Any:
         goal, space = episode.goal, self.space
-        if goal is None or not len(self.model.memory.kinds[goal.kind]):
+        memory = self.model.memory
+        if goal is None or len(memory) < self.bootstrap or not len(memory.kinds[goal.kind]):
             return space.sample(episode.rng)
         policy = self.model.best_policy(goal, episode.context)
         if not isinstance(space, Box):

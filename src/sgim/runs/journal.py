@@ -15,8 +15,8 @@ from sgim.events import Event
 from sgim.runs.codec import Codec
 from sgim.runs.journal_errors import exists, explain
 from sgim.runs.journal_file import SCHEMA_VERSION, create_file, open_file
-from sgim.runs.journal_reading import read_header, read_rows, recorded_task
-from sgim.runs.rows import ALSO, RecordedEvent, to_json
+from sgim.runs.journal_reading import read_columns, read_header, read_rows, recorded_task
+from sgim.runs.rows import ALSO, COLUMNS, RecordedEvent, to_json
 from sgim.runs.writer import Writer
 from sgim.runs.writer_lock import WriterLock
 from sgim.task import Task
@@ -160,14 +160,36 @@ class Journal:
     ) -> Iterator[tuple[int, RecordedEvent]]:
         """As `events`, each with the number of its last row, from which to read on later."""
         names = None if only is None else {*only}
-        for name in names or ():
+        db = self._reading(names or ())
+        wanted = None if names is None else sorted({*names, ALSO})
+        return self._codec.decode(read_rows(db, self.path, after, wanted))
+
+    def columns(self, event: str, *columns: str) -> list[tuple[Any, ...]]:
+        """Some columns of the rows of one sort of event, in order: to count without decoding.
+
+        Args:
+            event: Name of the event (``"told"``, …).
+            columns: Which columns (`sgim.runs.rows.COLUMNS`, or ``"seq"``), as they are stored.
+
+        Raises:
+            JournalError: If the file is damaged.
+            UnknownNameError: If there is no such event or column.
+        """
+        known = ("seq", *COLUMNS)
+        for column in columns:
+            if column not in known:
+                raise unknown("column of a journal", column, known)
+        return read_columns(self._reading([event]), self.path, event, columns)
+
+    def _reading(self, names: Iterable[str]) -> sqlite3.Connection:
+        """The connection, for reading events of these names, all of them committed."""
+        for name in names:
             if name not in self._codec.names:
                 raise unknown("event", name, self._codec.names)
         db = self._connection()
         if self._writer is not None:
             self._writer.commit()
-        wanted = None if names is None else sorted({*names, ALSO})
-        return self._codec.decode(read_rows(db, self.path, after, wanted))
+        return db
 
     def __len__(self) -> int:
         """Number of events, those waiting to be committed included; counts them all."""

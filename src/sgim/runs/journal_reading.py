@@ -5,12 +5,14 @@ from __future__ import annotations
 import json
 import sqlite3
 from collections.abc import Collection, Iterator, Mapping
+from contextlib import closing
 from pathlib import Path
 from typing import Any
 
 from sgim.errors import JournalError, SgimError
 from sgim.runs.decoders import Stored
 from sgim.runs.journal_errors import explain
+from sgim.runs.journal_file import open_file
 from sgim.runs.rows import COLUMNS, to_json
 from sgim.task import Task, task_from_description
 
@@ -33,6 +35,17 @@ def read_header(db: sqlite3.Connection, path: Path) -> dict[str, Any]:
             f"the header of journal {path} is not JSON ({error}): it was changed by hand; "
             "take a copy of the journal from elsewhere"
         ) from error
+
+
+def header_of(path: str | Path) -> dict[str, Any]:
+    """The header of a journal that is not open, for which its task need not be known.
+
+    Raises:
+        JournalError: If it is not a journal, or cannot be read.
+    """
+    path = Path(path)
+    with closing(open_file(path, append=False, durable=False)) as db:
+        return read_header(db, path)
 
 
 def recorded_task(header: Mapping[str, Any], path: Path, task: Task | None) -> Task:
@@ -115,3 +128,18 @@ def read_rows(
             )
         yield from rows
         after = last
+
+
+def read_columns(
+    db: sqlite3.Connection, path: Path, event: str, columns: Collection[str]
+) -> list[tuple[Any, ...]]:
+    """These columns of all rows of one name, in order; the columns must be ones of the table.
+
+    Raises:
+        JournalError: If the file is damaged.
+    """
+    statement = f"SELECT {', '.join(columns)} FROM events WHERE event = ? ORDER BY seq"
+    try:
+        return db.execute(statement, (event,)).fetchall()
+    except sqlite3.Error as error:
+        raise explain(path, error) from error

@@ -246,7 +246,10 @@ class _Fold:
         if mine == recorded:
             return
         shown = [_shown(pair, space) for pair in (mine, recorded)]
-        raise MismatchError(f"{what} comes out as {shown[0]} here, but as {shown[1]} there")
+        raise MismatchError(
+            f"{what} comes out as {shown[0]} here, but as {shown[1]} there. Another version of the "
+            "library, or another processor? To go on with what is recorded: --adopt, adopt=True"
+        )
 
 
 def _shown(values: tuple[Any, ...], space: Space | None) -> str:

@@ -23,8 +23,9 @@ from sgim.events import Evaluated, Session
 from sgim.learner import Learner
 from sgim.records import Outcome, Plan
 from sgim.runs.benchmark import Benchmark
+from sgim.runs.continuation import keep_journal
 from sgim.runs.journal import Journal
-from sgim.runs.replay import Replayed, iterate_trials, replay
+from sgim.runs.replay import Replayed, iterate_trials
 from sgim.streams import Streams
 from sgim.teachers import Teacher
 
@@ -122,32 +123,17 @@ class Run:
         self.failures = 0
         self.seconds = 0.0
         self._stopping = False
-        header = {
-            **(about or {}),
-            "recipe": learner.recipe,
-            "evaluate_every": evaluate_every,
-            "batch": batch,
-        }
         replayed = Replayed(learner)
         self.journal: Journal | None = None
-        if journal is not None and Path(journal).exists():
-            self.journal, replayed = _resumed(
-                Path(journal), learner, header, adopt=adopt or real, durable=real
+        if journal is not None:
+            header = {**(about or {}), "evaluate_every": evaluate_every, "batch": batch}
+            self.journal, replayed = keep_journal(
+                learner, journal, real=real, adopt=adopt, about=header
             )
-        elif journal is not None:
-            self.journal = Journal.create(journal, header, learner.task, durable=real)
         self.learner = replayed.learner
         self.evaluations = replayed.evaluations
         self.difference = replayed.difference
         self._unfinished_round = (replayed.round_start, replayed.round_size)
-        if self.journal is not None:
-            for event in replayed.unwritten:
-                self.journal.append(event)
-            self.learner.record = self.journal.append
-        if real:
-            for plan in self.learner.pending:
-                if plan.request is None:
-                    self.learner.lose(plan)
 
     @property
     def movements(self) -> int:
@@ -357,24 +343,6 @@ class Run:
 
     def __exit__(self, *exception: object) -> None:
         self.close()
-
-
-def _resumed(
-    path: Path, learner: Learner, header: Mapping[str, Any], *, adopt: bool, durable: bool
-) -> tuple[Journal, Replayed]:
-    journal = Journal.open(path, learner.task, append=True, durable=durable)
-    try:
-        for key, mine in header.items():
-            recorded = journal.header.get(key)
-            if recorded != mine:
-                raise JournalError(
-                    f"{path} is of another run: its {key} is {recorded!r:.300}, but here it is "
-                    f"{mine!r:.300}; resume it as it was begun, or choose another path"
-                )
-        return journal, replay(learner, journal.events(), adopt=adopt)
-    except BaseException:
-        journal.close()
-        raise
 
 
 def _facts(target: int, difference: str | None) -> dict[str, Any]:

@@ -1,0 +1,72 @@
+"""Giving a learner its journal: a new one, or one that it goes on with."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from sgim.errors import JournalError
+from sgim.learner import Learner
+from sgim.runs.journal import Journal
+from sgim.runs.replay import Replayed, replay
+
+
+def keep_journal(
+    learner: Learner,
+    path: str | Path,
+    *,
+    real: bool = False,
+    adopt: bool = False,
+    about: Mapping[str, Any] | None = None,
+) -> tuple[Journal, Replayed]:
+    """Let a learner that has done nothing yet keep a journal, going on with it if it exists.
+
+    Args:
+        learner: A fresh learner, made as the recorded one was.
+        path: The journal's path.
+        real: Whether the world is a real one: every event is on disk before the next thing
+            happens, decisions that come out differently after a change of the library are
+            adopted at once, and plans that were out when the process died are given up as lost
+            instead of being repeated; requests to teachers stay out.
+        adopt: Whether to adopt such decisions in a simulated world too, instead of refusing.
+        about: What to write in a new journal's header; an existing one must have the same.
+
+    Returns:
+        The journal, and what its events came to. Go on with ``replayed.learner``, which is the
+        learner that was passed unless decisions had to be adopted, and with its ``pending``
+        plans. Close the journal at the end.
+
+    Raises:
+        JournalError: If the journal cannot be used, or is of another run.
+        MismatchError: If a decision comes out differently, and is not adopted.
+    """
+    header = {**(about or {}), "recipe": learner.recipe}
+    if not Path(path).exists():
+        journal = Journal.create(path, header, learner.task, durable=real)
+        replayed = Replayed(learner)
+    else:
+        journal = Journal.open(path, learner.task, append=True, durable=real)
+        try:
+            _check(path, journal.header, header)
+            replayed = replay(learner, journal.events(), adopt=adopt or real)
+        except BaseException:
+            journal.close()
+            raise
+    for event in replayed.unwritten:
+        journal.append(event)
+    replayed.learner.record = journal.append
+    if real:
+        for plan in replayed.learner.pending:
+            if plan.request is None:
+                replayed.learner.lose(plan)
+    return journal, replayed
+
+
+def _check(path: str | Path, recorded: Mapping[str, Any], mine: Mapping[str, Any]) -> None:
+    for key, value in mine.items():
+        if recorded.get(key) != value:
+            raise JournalError(
+                f"{path} is of another run: its {key} is {recorded.get(key)!r:.300}, but here it "
+                f"is {value!r:.300}; resume it as it was begun, or choose another path"
+            )

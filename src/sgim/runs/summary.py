@@ -1,0 +1,224 @@
+"""What a journal says of its run, read without making a learner, also while the run goes on."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sgim.errors import JournalError
+from sgim.events import Evaluated, Session
+from sgim.runs.journal import Journal
+from sgim.task import Task
+
+QUARTERS = 4
+
+
+@dataclass(frozen=True)
+class Openings:
+    """The episodes of a run in the order they were opened, all columns of one length.
+
+    Attributes:
+        movements: Movements made before each was opened, shape ``(n,)``.
+        modes: The mode decided for each.
+        kinds: The kind of the goal chosen for each; None for modes without a goal.
+    """
+
+    movements: NDArray[np.int64]
+    modes: list[str]
+    kinds: list[str | None]
+
+    def shares(self, edges: NDArray[np.float64]) -> list[dict[str, dict[str, float]]]:
+        """Shares of modes and of goal kinds among the episodes opened in each window.
+
+        Args:
+            edges: Movements at which windows begin and end, increasing, shape ``(w + 1,)``; what
+                was opened before the first or after the last edge counts in the outermost.
+
+        Returns:
+            For each window ``{"modes": {mode: share}, "kinds": {kind: share}}``, with every mode
+            and kind of the run; both are empty where no episode was opened. Shares of kinds sum
+            to less than 1 where some modes have no goal.
+        """
+        window = np.clip(np.searchsorted(edges, self.movements, "right") - 1, 0, len(edges) - 2)
+        shares = []
+        for w in range(len(edges) - 1):
+            rows = np.flatnonzero(window == w).tolist()
+            shares.append({"modes": _share(self.modes, rows), "kinds": _share(self.kinds, rows)})
+        return shares
+
+
+def _share(names: list[Any], rows: list[int]) -> dict[str, float]:
+    if not rows:
+        return {}
+    counts = Counter(names[i] for i in rows)
+    return {name: counts[name] / len(rows) for name in sorted({*names} - {None})}
+
+
+@dataclass(frozen=True)
+class RecordedRun:
+    """What a journal says of its run.
+
+    Attributes:
+        path: The journal.
+        header: Its header.
+        task: The task of the run.
+        movements: Movements made so far, told or failed.
+        target: How many movements the run was last asked for; None if it never began.
+        evaluations: Its evaluations, in order.
+        openings: Its episodes.
+    """
+
+    path: Path
+    header: Mapping[str, Any]
+    task: Task
+    movements: int
+    target: int | None
+    evaluations: tuple[Evaluated, ...]
+    openings: Openings
+
+    @property
+    def experiment(self) -> str | None:
+        """Name of the experiment; None for a run that is not of one."""
+        name: str | None = self.header.get("experiment")
+        return name
+
+    @property
+    def learner(self) -> str | None:
+        """Name of the learner, such as ``mimicry:T1``; None if it has no name."""
+        name: str | None = self.header.get("learner") or self._recipe.get("learner")
+        return name
+
+    @property
+    def configuration(self) -> str | None:
+        """Name of the learner's configuration, if known."""
+        configuration = self._recipe.get("configuration") or {}
+        name: str | None = configuration.get("name")
+        return name
+
+    @property
+    def seed(self) -> int | None:
+        """The seed, if known."""
+        seed: int | None = self._recipe.get("seed")
+        return seed
+
+    @cached_property
+    def _recipe(self) -> dict[str, Any]:
+        return self.header.get("recipe") or {}
+
+    @property
+    def finished(self) -> bool:
+        """Whether it has made the movements it was last asked for, and is evaluated so far."""
+        if self.target is None or self.movements < self.target:
+            return False
+        every: int = self.header.get("evaluate_every", 1)
+        due = self.target // every * every
+        return not self.evaluations or self.evaluations[-1].movements >= due
+
+    @property
+    def choices(self) -> list[dict[str, dict[str, float]]]:
+        """Shares of modes and kinds in each quarter of the movements it was last asked for."""
+        end = self.movements if self.target is None else self.target
+        return self.openings.shares(np.linspace(0.0, max(end, 1), QUARTERS + 1))
+
+    def summary(self) -> dict[str, Any]:
+        """As JSON: what was run, how far it is, its errors and its choices.
+
+        Returns:
+            ``experiment``, ``learner``, ``configuration``, ``seed``; ``movements``; ``finished``;
+            ``evaluations``: for each, ``movements`` and ``cost`` (goal kind → mean error, and
+            ``total``); ``choices``: for each quarter of the run, the shares among the episodes
+            opened of ``modes`` and of the ``kinds`` of their goals.
+        """
+        return {
+            "experiment": self.experiment,
+            "learner": self.learner,
+            "configuration": self.configuration,
+            "seed": self.seed,
+            "movements": self.movements,
+            "finished": self.finished,
+            "evaluations": [
+                {"movements": e.movements, "cost": dict(e.errors)} for e in self.evaluations
+            ],
+            "choices": self.choices,
+        }
+
+
+def read_run(path: str | Path, task: Task | None = None) -> RecordedRun:
+    """Read what a journal says of its run; trials are counted, not decoded.
+
+    Args:
+        path: The journal.
+        task: Its task; needed only if its spaces are not part of the library.
+
+    Raises:
+        JournalError: If it cannot be read.
+    """
+    with Journal.open(path, task, append=False) as journal:
+        target = None
+        evaluations = []
+        for event in journal.events(only=("evaluated", "session")):
+            match event:
+                case Evaluated():
+                    evaluations.append(event)
+                case Session(facts):
+                    target = facts.get("target", target)
+        # Trials are read last: while the run goes on, they are no fewer than what is read first
+        # says.
+        opened = journal.columns("opened", "seq", "name", "kind")
+        moved = _movements(journal)
+        seqs = np.array([row[0] for row in opened], dtype=np.int64)
+        openings = Openings(
+            np.searchsorted(moved, seqs), [row[1] for row in opened], [row[2] for row in opened]
+        )
+        return RecordedRun(
+            Path(path),
+            journal.header,
+            journal.task,
+            len(moved),
+            target,
+            tuple(evaluations),
+            openings,
+        )
+
+
+def summarise(path: str | Path, task: Task | None = None) -> dict[str, Any]:
+    """The `RecordedRun.summary` of a journal."""
+    return read_run(path, task).summary()
+
+
+def find_journals(paths: list[Path]) -> list[Path]:
+    """These journals, and those in these directories, each once.
+
+    Raises:
+        JournalError: If a path does not exist, or a directory has no journal.
+    """
+    found: dict[Path, None] = {}
+    for path in paths:
+        if path.is_dir():
+            inside = sorted(path.rglob("*.sgim"))
+            if not inside:
+                raise JournalError(f"there is no journal (*.sgim) in {path}; check the path")
+            found.update(dict.fromkeys(inside))
+        elif path.exists():
+            found[path] = None
+        else:
+            raise JournalError(f"there is no journal {path}; check the path")
+    return list(found)
+
+
+def _movements(journal: Journal) -> NDArray[np.int64]:
+    """Rows at which a movement was made: told, or failed."""
+    rows = [seq for (seq,) in journal.columns("told", "seq")]
+    ended = journal.columns("ended", "seq", "name", "plan")
+    if failed := {plan: seq for seq, how, plan in ended if how == "failed"}:
+        for plan, teacher in journal.columns("planned", "plan", "name"):
+            if teacher is not None:
+                failed.pop(plan, None)  # a request that failed was no movement
+    return np.sort(np.array([*rows, *failed.values()], dtype=np.int64))
