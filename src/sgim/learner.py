@@ -73,6 +73,7 @@ class Learner:
         self.movements = 0
         self.folding = False
         self.ledger = Ledger()
+        self._rng = (-1, self.streams("learner"))
         self._absent: set[str] = set()
         self._suggestions: deque[Goal] = deque()
         self._given: deque[Demonstration] = deque()
@@ -156,8 +157,8 @@ class Learner:
             goal = Goal(*next(iter(demonstration.outcome.items())))
             mode = self._mode_for(demonstration)
             return Opened(number, mode.name, goal, context, "demonstration")
-        rng = self.streams("learner/choice", number)
-        mode, chosen = self.strategy.choose(rng, self._absent, context)
+        self._rng = number, self.streams("learner", number)
+        mode, chosen = self.strategy.choose(self._rng[1], self._absent, context)
         if self._suggestions:
             mode = self.strategy.alone if mode.pursues == "nothing" else mode
             return Opened(number, mode.name, self._suggestions[0], context, "suggestion")
@@ -183,7 +184,10 @@ class Learner:
         """Open the episode that was decided; ``live`` if its explorer is to be used."""
         number = event.episode
         self.ledger.next_episode = number + 1
-        rng = self.streams("learner/episode", number)
+        # The choice was drawn from the episode's own stream, which goes on from there.
+        decided, rng = self._rng
+        if decided != number:
+            rng = self.streams("learner", number)
         episode = Episode(number, event.goal, event.context, rng)
         running = Running(self.mode(event.mode), event.goal, event.context, episode, live)
         self.ledger.running[number] = running

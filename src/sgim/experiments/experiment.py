@@ -164,12 +164,12 @@ class Experiment:
         """
         learner = self.learner(name, configuration=configuration, seed=seed)
         about = {} if warm_start is None else {"warm_start": str(warm_start)}
-        if Path(journal).exists():
+        exists = Path(journal).exists()
+        if exists:
             self.require_same(journal, learner, batch, warm_start)
             evaluate_every = header_of(journal).get("evaluate_every", evaluate_every)
         elif warm_start is not None:
             Journal.open(warm_start, learner.task, append=False).close()
-        exists = Path(journal).exists()
         run = self.run(learner, journal, batch=batch, evaluate_every=evaluate_every, about=about)
         if warm_start is not None and not exists:
             run.warm_start(warm_start)

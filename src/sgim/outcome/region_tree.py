@@ -59,7 +59,7 @@ class RegionTree:
         probabilities: Of the rules uniform, interesting, worst_point.
         prior: Interest of pairs not yet tried, before division by the cost.
         staleness: Interest, before division by the cost, that a pair regains with age.
-        patience: Episodes in which it regains 63 % of that.
+        patience: Episodes in which it regains half of that.
         credit: Whether an episode counts where its goal was ``chosen``, or at what it ``pursued``.
 
     Raises:
@@ -125,9 +125,8 @@ class RegionTree:
         n = len(self.leaves)
         interest = self._interest[:n]
         if self.staleness:
-            age = self._tried[:n] - self._episode
-            regained = -np.expm1(age / self.patience)
-            return interest + regained * (self.staleness / self.costs)
+            age = self._episode - self._tried[:n]
+            return interest + age / (age + self.patience) * (self.staleness / self.costs)
         return interest.copy()
 
     def region_of(self, kind: str, place: Sequence[float] | FloatArray) -> Region:

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
+from scipy.linalg.lapack import dposv
 
 from sgim.policy.explorer import Episode
 from sgim.policy.model import NearestModel
@@ -18,32 +19,35 @@ class _State:
 
     __slots__ = ("best", "costs", "count", "goal", "keys", "policies", "proposed", "turn")
 
-    def __init__(self, goal: FloatArray, policies: FloatArray, keys: FloatArray, room: int) -> None:
-        n = len(policies)
+    def __init__(
+        self,
+        goal: FloatArray,
+        policies: FloatArray,
+        keys: FloatArray,
+        distances: FloatArray,
+        room: int,
+    ) -> None:
+        n = self.count = len(policies)
         self.goal = goal
-        self.policies = np.empty((n + room, policies.shape[1]))
-        self.keys = np.empty((n + room, keys.shape[1]))
-        self.costs = np.empty(n + room)
+        self.policies = np.zeros((room, policies.shape[1]))
+        self.keys = np.zeros((room, len(goal)))
         self.policies[:n] = policies
         self.keys[:n] = keys
-        offsets = keys - goal
-        self.costs[:n] = np.sqrt(np.einsum("ij,ij->i", offsets, offsets))
-        self.count = n
-        self.best = int(self.costs[:n].argmin()) if n else -1
+        self.costs: list[float] = distances.tolist()
+        self.best = 0 if n else -1
         self.turn = 0
-        self.proposed: FloatArray | None = None
+        self.proposed = policies[:0]
 
-    def add(self, policy: FloatArray, key: FloatArray) -> None:
+    def add(self, policy: FloatArray, key: FloatArray, cost: float) -> None:
         n = self.count
-        if n == len(self.costs):
-            for name in ("policies", "keys", "costs"):
-                old = getattr(self, name)
-                setattr(self, name, np.concatenate((old, np.empty_like(old))))
+        if n == len(self.policies):  # the farthest from the goal makes room
+            n = max(range(n), key=self.costs.__getitem__)
+            self.costs[n] = cost
+        else:
+            self.count = n + 1
+            self.costs.append(cost)
         self.policies[n] = policy
         self.keys[n] = key
-        offset = key - self.goal
-        cost = self.costs[n] = float(np.sqrt(offset @ offset))
-        self.count = n + 1
         if self.best < 0 or cost < self.costs[self.best]:
             self.best = n
 
@@ -65,7 +69,6 @@ class LocalSearch:
         ridge: Ridge, relative to the mean squared offset of the policies.
         differential_weight: Largest weight F of the difference.
         least_global: Least probability of a random policy.
-        most_global: Largest probability of a random policy, once the kind has been produced.
         tolerance: Share of the task's tolerance below which a goal counts as reached.
     """
 
@@ -78,7 +81,6 @@ class LocalSearch:
         ridge: float = 1e-3,
         differential_weight: float = 0.7,
         least_global: float = 0.02,
-        most_global: float = 1.0,
         tolerance: float = 0.1,
     ) -> None:
         space = model.memory.task.policy_space
@@ -93,7 +95,6 @@ class LocalSearch:
         self.ridge = ridge
         self.differential_weight = differential_weight
         self.least_global = least_global
-        self.most_global = most_global
         self.tolerance = tolerance
 
     def begin(self, episode: Episode) -> None:
@@ -101,10 +102,13 @@ class LocalSearch:
         goal = episode.goal
         assert goal is not None
         memory = self.model.memory.kinds[goal.kind]
-        _, rows = self.model.nearest(goal, episode.context)
-        key = self.model.memory.key(goal.kind, goal.point, episode.context)
+        distances, rows = self.model.nearest(goal, episode.context)
         episode.state = _State(
-            key, memory.encoded_policies(rows), memory.keys.rows[rows], self.budget
+            self.model.goal_key(goal, episode.context),
+            memory.encoded_policies(rows),
+            memory.keys.rows[rows],
+            distances,
+            self.model.neighbourhood + self.budget,
         )
 
     def propose(self, episodes: Sequence[Episode]) -> list[Any]:
@@ -113,17 +117,17 @@ class LocalSearch:
         points: list[FloatArray] = []
         for i, episode in enumerate(episodes):
             state: _State = episode.state
-            draws = episode.rng.random(4)
-            cost = state.costs[state.best] if state.count else 1.0
-            if state.count == 0 or draws[0] < min(self.most_global, max(self.least_global, cost)):
+            chance, *draws = episode.rng.random(4).tolist()
+            cost = min(1.0, state.costs[state.best]) if state.count else 1.0
+            if state.count == 0 or chance < max(self.least_global, cost):
                 points.append(episode.rng.random(self.space.dimension))
                 continue
             state.turn += 1
             if state.turn % 2 and state.count > 2:
-                linear.setdefault(state.keys.shape[1], []).append(i)
-                points.append(state.policies[state.best])
+                linear.setdefault(len(state.goal), []).append(i)
+                points.append(state.goal)
             else:
-                points.append(self._differential(state, draws))
+                points.append(self._differential(state, *draws))
         for chosen in linear.values():
             steps = self._linear_steps([episodes[i].state for i in chosen])
             for i, point in zip(chosen, steps, strict=True):
@@ -135,77 +139,70 @@ class LocalSearch:
             decoded.append(self.space.decode(clipped))
         return decoded
 
-    def _differential(self, state: _State, draws: FloatArray) -> FloatArray:
-        n = state.count
-        i, j = int(draws[1] * n), int(draws[2] * n)
-        weight = self.differential_weight * draws[3]
-        step = weight * (state.policies[i] - state.policies[j])
+    def _differential(self, state: _State, one: float, other: float, share: float) -> FloatArray:
+        i, j = int(one * state.count), int(other * state.count)
+        step = self.differential_weight * share * (state.policies[i] - state.policies[j])
         point: FloatArray = state.policies[state.best] + step
         return point
 
-    def _linear_steps(self, states: Sequence[_State]) -> list[FloatArray]:
-        """The step of each state's local linear map to its goal.
+    def _linear_steps(self, states: Sequence[_State]) -> FloatArray:
+        """Where each state's local linear map puts its goal, shape ``(states, dimension)``.
 
         Arrays are stacked, so that each state's numbers go through the same operations on the
         same shapes however many there are.
         """
-        size, dimension = self.local_policies, self.space.dimension
-        contexts = self.context_dimension
-        outcomes = states[0].keys.shape[1] - contexts
-        inputs = np.zeros((len(states), size, dimension + contexts))
-        effects = np.zeros((len(states), size, outcomes))
-        wanted = np.empty((len(states), outcomes + contexts))
-        radius = np.empty(len(states))
+        size, outcomes = self.local_policies, len(states[0].goal) - self.context_dimension
+        each, best = np.arange(len(states)), np.array([s.best for s in states])
+        policies = np.stack([s.policies for s in states])
+        keys = np.stack([s.keys for s in states])
+        start = policies[each, best]
+        apart = policies - start[:, None]
+        squares = np.einsum("bij,bij->bi", apart, apart)
         for i, state in enumerate(states):
-            n, best = state.count, state.best
-            apart = state.policies[:n] - state.policies[best]
-            squares = np.einsum("ij,ij->i", apart, apart)
-            keys = state.keys[:n]
-            if n > size:
-                chosen = squares.argpartition(size - 1)[:size]
-                apart, squares, keys = apart[chosen], squares[chosen], keys[chosen]
-            rows = len(apart)
-            keys = keys - state.keys[best]
-            inputs[i, :rows, :dimension] = apart
-            inputs[i, :rows, dimension:] = keys[:, outcomes:]
-            effects[i, :rows] = keys[:, :outcomes]
-            radius[i] = np.sqrt(squares.max())
-            wanted[i] = state.goal - state.keys[best]
-        steps = self._solve(inputs, effects, wanted, radius)
-        return [s.policies[s.best] + step for s, step in zip(states, steps, strict=True)]
+            squares[i, state.count :] = np.inf
+        chosen = squares.argpartition(size - 1)[:, :size]
+        squares = squares[each[:, None], chosen]
+        empty = np.isinf(squares)
+        origin = keys[each, best]
+        inputs = apart[each[:, None], chosen]
+        keys = keys[each[:, None], chosen] - origin[:, None]
+        if empty.any():
+            squares[empty] = inputs[empty] = keys[empty] = 0.0
+        if self.context_dimension:
+            inputs = np.concatenate((inputs, keys[:, :, outcomes:]), axis=2)
+        wanted = np.array([s.goal for s in states]) - origin
+        steps = self._solve(inputs, keys[:, :, :outcomes], wanted)
+        lengths = np.sqrt(np.einsum("bi,bi->b", steps, steps))
+        radius = np.sqrt(squares.max(axis=1))
+        steps *= (radius / np.maximum(lengths, np.maximum(radius, 1e-300)))[:, None]
+        point: FloatArray = start + steps
+        return point
 
-    def _solve(
-        self, inputs: FloatArray, effects: FloatArray, wanted: FloatArray, radius: FloatArray
-    ) -> FloatArray:
+    def _solve(self, inputs: FloatArray, effects: FloatArray, wanted: FloatArray) -> FloatArray:
         """Minimum-norm policy steps, shape ``(states, policy dimension)``.
 
         The map is fitted over policies and contexts; the context's share of the wanted effect
         comes without a step.
         """
-        size, dimension, outcomes = inputs.shape[1], self.space.dimension, effects.shape[2]
-        gram = inputs @ inputs.transpose(0, 2, 1)
-        _add_to_diagonal(gram, self.ridge / size)
-        linear = inputs.transpose(0, 2, 1) @ np.linalg.solve(gram, effects)
+        dimension, outcomes = self.space.dimension, effects.shape[2]
+        transposed = inputs.transpose(0, 2, 1)
+        linear = transposed @ _solved(inputs @ transposed, effects, self.ridge / len(inputs[0]))
         target = wanted[:, :outcomes, None]
         if self.context_dimension:
             by_context = linear[:, dimension:].transpose(0, 2, 1)
             target = target - by_context @ wanted[:, outcomes:, None]
             linear = linear[:, :dimension]
         square = linear.transpose(0, 2, 1) @ linear
-        _add_to_diagonal(square, 1e-9)
-        steps: FloatArray = (linear @ np.linalg.solve(square, target))[:, :, 0]
-        lengths = np.sqrt(np.einsum("bi,bi->b", steps, steps))
-        steps *= (radius / np.maximum(lengths, np.maximum(radius, 1e-300)))[:, None]
+        steps: FloatArray = (linear @ _solved(square, target, 1e-9))[:, :, 0]
         return steps
 
     def learn(self, episode: Episode, trial: Trial, competence: float | None) -> None:
         """Add the trial to those near the goal, if it produced the goal's kind."""
-        goal, state = episode.goal, episode.state
-        assert goal is not None
-        point = trial.outcome.get(goal.kind)
-        if point is not None:
-            key = self.model.memory.key(goal.kind, point, trial.context)
-            state.add(self.space.encode(trial.policy), key)
+        assert episode.goal is not None
+        key = self.model.key_of(trial, episode.goal.kind)
+        if key is not None and competence is not None:
+            state: _State = episode.state
+            state.add(state.proposed, key, -competence)
 
     def refuse(self, episode: Episode) -> None:
         """Nothing to add: the next step is drawn anew."""
@@ -218,8 +215,21 @@ class LocalSearch:
         return -episode.best <= self.tolerance * tolerance
 
 
-def _add_to_diagonal(matrices: FloatArray, share: float) -> None:
-    """Add a share of each matrix's trace to its diagonal, in place; shape ``(b, n, n)``."""
-    n = matrices.shape[1]
-    diagonals = matrices.reshape(len(matrices), n * n)[:, :: n + 1]
-    diagonals += diagonals.sum(axis=1, keepdims=True) * share + 1e-300
+def _solved(squares: FloatArray, right: FloatArray, ridge: float) -> FloatArray:
+    """Solve symmetric systems, with a share of each matrix's trace added to its diagonal.
+
+    One by one: LAPACK itself is faster here than its stacked form, and its rounding does not
+    depend on how many there are.
+
+    Args:
+        squares: Positive semidefinite matrices, shape ``(b, n, n)``; overwritten.
+        right: Right-hand sides, shape ``(b, n, m)``.
+        ridge: The share.
+    """
+    b, n, _ = squares.shape
+    diagonals = squares.reshape(b, n * n)[:, :: n + 1]
+    diagonals += diagonals.sum(axis=1, keepdims=True) * ridge + 1e-300
+    solutions = np.empty_like(right)
+    for i in range(b):
+        solutions[i] = dposv(squares[i], right[i])[1]
+    return solutions

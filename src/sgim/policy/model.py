@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from typing import Any, Protocol, runtime_checkable
 
@@ -71,17 +72,34 @@ class NearestModel:
     def __init__(self, memory: Memory) -> None:
         self.memory = memory
         self._cached: tuple[Goal, Any, int, tuple[FloatArray, IntArray]] | None = None
+        self._goal: tuple[Goal | None, Any, FloatArray] = (None, None, np.empty(0))
+        self._last: Trial | None = None
 
     def update(self, trial: Trial) -> None:
         """Remember the trial."""
         self.memory.add(trial)
+        self._last = trial
+
+    def goal_key(self, goal: Goal, context: Any) -> FloatArray:
+        """The key of a goal in a context (see `KindMemory`)."""
+        if self._goal[0] is not goal or self._goal[1] is not context:
+            self._goal = goal, context, self.memory.key(goal.kind, goal.point, context)
+        return self._goal[2]
+
+    def key_of(self, trial: Trial, kind: str) -> FloatArray | None:
+        """The key of what a trial produced of this kind, if it did."""
+        if kind not in trial.outcome:
+            return None
+        if trial is self._last:
+            return self.memory.kinds[kind].keys.rows[-1]
+        return self.memory.key(kind, trial.outcome[kind], trial.context)
 
     def nearest(self, goal: Goal, context: Any) -> tuple[FloatArray, IntArray]:
         """Distances and rows of the `neighbourhood` outcomes nearest to the goal."""
         cached, size = self._cached, len(self.memory)
         if cached and cached[0] is goal and cached[1] is context and cached[2] == size:
             return cached[3]
-        key = self.memory.key(goal.kind, goal.point, context)
+        key = self.goal_key(goal, context)
         found = self.memory.kinds[goal.kind].nearest(key, self.neighbourhood)
         self._cached = (goal, context, size, found)
         return found
@@ -93,12 +111,11 @@ class NearestModel:
 
     def shown_by(self, trial: Trial, goal: Goal, context: Any) -> float:
         """Minus the distance from the trial's outcome to the goal; −1 if it has none."""
-        point = trial.outcome.get(goal.kind)
-        if point is None:
+        key = self.key_of(trial, goal.kind)
+        if key is None:
             return -1.0
-        difference = self.memory.key(goal.kind, point, trial.context)
-        difference = difference - self.memory.key(goal.kind, goal.point, context)
-        return -min(1.0, float(np.sqrt(difference @ difference)))
+        difference = key - self.goal_key(goal, context)
+        return -min(1.0, math.sqrt(difference @ difference))
 
     def best_policy(self, goal: Goal, context: Any) -> Any:
         """The policy of the nearest remembered outcome."""

@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from rich.progress import Progress, TaskID
 
     from sgim.runs.run import Observer, Run
+    from sgim.runs.sweep import SweptRun
 
 LATELY = 200
 """Episodes over which choices are shown."""
@@ -166,9 +167,10 @@ class _Choices:
 
     def update(self, run: Run) -> None:
         if run.journal is not None:
-            for self._after, event in run.journal.entries(self._after, only=("opened",)):
+            for row, event in run.journal.entries(self._after, only=("opened",)):
                 assert isinstance(event, Opened)
                 self._modes.append(event.mode)
+                self._after = row
 
     def __str__(self) -> str:
         counts = Counter(self._modes).most_common()
@@ -179,8 +181,55 @@ def _errors(evaluation: Evaluated) -> str:
     return "  ".join(f"{kind} {error:.3g}" for kind, error in evaluation.errors.items())
 
 
+class SweepProgress:
+    """One bar for many runs, or a line every few seconds where there is no terminal.
+
+    Args:
+        title: What runs.
+        total: How many runs there are.
+        stream: Where to write; standard error if None.
+    """
+
+    seconds = 5.0
+    """Least time between lines."""
+
+    def __init__(self, title: str, total: int, stream: TextIO | None = None) -> None:
+        self._title = title
+        self._total = total
+        self._stream = sys.stderr if stream is None else stream
+        self._done = 0
+        self._written = 0.0
+        self._bar: Progress | None = None
+        self._task: TaskID | None = None
+
+    def __enter__(self) -> SweepProgress:
+        if self._stream.isatty():
+            from rich.console import Console
+            from rich.progress import Progress
+
+            self._bar = Progress(console=Console(file=self._stream), transient=True)
+            self._task = self._bar.add_task(self._title, total=self._total)
+            self._bar.start()
+        return self
+
+    def ended(self, run: SweptRun) -> None:
+        """Count a run that has ended."""
+        self._done += 1
+        if self._bar is not None and self._task is not None:
+            self._bar.update(self._task, advance=1)
+        elif time.monotonic() - self._written > self.seconds:
+            self._written = time.monotonic()
+            print(f"{self._done} of {self._total} runs", file=self._stream, flush=True)
+
+    def __exit__(self, *exception: object) -> None:
+        if self._bar is not None:
+            self._bar.stop()
+
+
 def duration(seconds: float) -> str:
-    """A time in words: ``8 s``, ``3 min``, ``2 h 5 min``."""
+    """A time in words: ``0.4 s``, ``8 s``, ``3 min``, ``2 h 5 min``."""
+    if seconds < 2:
+        return f"{seconds:.1f} s"
     if seconds < 59.5:
         return f"{seconds:.0f} s"
     minutes = round(seconds / 60)

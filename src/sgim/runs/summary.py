@@ -114,12 +114,15 @@ class RecordedRun:
 
     @property
     def finished(self) -> bool:
-        """Whether it has made the movements it was last asked for, and is evaluated so far."""
-        if self.target is None or self.movements < self.target:
-            return False
+        """Whether it has reached the number of movements it was last asked for."""
+        return self.target is not None and self.reached(self.target)
+
+    def reached(self, movements: int) -> bool:
+        """Whether it has made so many movements, and is evaluated as far as is due by then."""
         every: int = self.header.get("evaluate_every", 1)
-        due = self.target // every * every
-        return not self.evaluations or self.evaluations[-1].movements >= due
+        due = movements // every * every
+        evaluated = not self.evaluations or self.evaluations[-1].movements >= due
+        return self.movements >= movements and evaluated
 
     @property
     def choices(self) -> list[dict[str, dict[str, float]]]:

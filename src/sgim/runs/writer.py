@@ -4,8 +4,11 @@ from __future__ import annotations
 
 import sqlite3
 import time
+from collections.abc import Callable, Sequence
 from contextlib import suppress
+from operator import itemgetter
 from pathlib import Path
+from typing import Any
 
 from sgim.errors import JournalError
 from sgim.runs.journal_errors import unwritten
@@ -19,7 +22,41 @@ GROUP_ROWS = 4096
 GROUP_SECONDS = 1.0
 """Age in seconds of the oldest waiting row at which the next append commits."""
 
-_INSERT = f"INSERT INTO events({', '.join(COLUMNS)}) VALUES ({', '.join('?' * len(COLUMNS))})"
+
+def _insert(columns: Sequence[str]) -> str:
+    marks = ", ".join("?" * (len(columns) + 1))
+    return f"INSERT INTO events(seq, {', '.join(columns)}) VALUES ({marks})"
+
+
+def _shape(*columns: str) -> tuple[str, Callable[[Row], Any], Callable[[Row], Any]]:
+    """The statement that inserts only these columns, their values, and the others' values."""
+    others = [i for i, name in enumerate(COLUMNS) if name not in columns]
+    places = [COLUMNS.index(name) for name in columns]
+    return _insert(columns), itemgetter(*places), itemgetter(*others)
+
+
+_EVERYTHING = _insert(COLUMNS)
+# Binding the columns that are empty would cost more than all the rest of an insertion.
+_SHAPES = {
+    "planned": _shape("event", "episode", "plan", "policy"),
+    "told": _shape("event", "plan", "kind", "point"),
+    "opened": _shape("event", "episode", "name", "kind", "point", "detail"),
+    "closed": _shape("event", "episode", "name", "kind", "point", "detail"),
+}
+_EMPTY = {name: (None,) * (len(COLUMNS) - 4) for name in ("planned", "told")}
+_EMPTY |= {name: (None,) * (len(COLUMNS) - 6) for name in ("opened", "closed")}
+
+
+def _by_shape(rows: list[Row], after: int, done: int) -> dict[str, list[tuple[Any, ...]]]:
+    """Values to insert, each row's ``seq`` first, by the statement that inserts them."""
+    groups: dict[str, list[tuple[Any, ...]]] = {}
+    for seq, row in enumerate(rows[done:] if done else rows, start=after + done + 1):
+        statement, values = _EVERYTHING, row
+        shape = _SHAPES.get(row[0])
+        if shape is not None and shape[2](row) == _EMPTY[row[0]]:
+            statement, values = shape[0], shape[1](row)
+        groups.setdefault(statement, []).append((seq, *values))
+    return groups
 
 
 class _Waiting:
@@ -93,7 +130,8 @@ class Writer:
                 db.execute("ROLLBACK")
             db.execute("BEGIN IMMEDIATE")
             done = self._already_written()
-            db.executemany(_INSERT, waiting.rows[done:] if done else waiting.rows)
+            for statement, values in _by_shape(waiting.rows, waiting.after, done).items():
+                db.executemany(statement, values)
             db.execute("COMMIT")
         except BaseException as error:
             with suppress(sqlite3.Error):

@@ -1,0 +1,108 @@
+"""The command line: ``sgim COMMAND …``, one file a command.
+
+Exit codes: 0, all is well; 1, a run or a journal failed; 2, the command cannot be understood or
+names something unknown; 130, interrupted.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+import warnings
+from collections.abc import Sequence
+from importlib import import_module
+from importlib.metadata import version
+from typing import Any, TextIO
+
+from sgim.errors import JournalError, SgimError, unknown
+
+COMMANDS = {
+    "list": "What there is: experiments, learners, configurations, teachers.",
+    "run": "Run a learner in an experiment.",
+    "resume": "Go on with a run that was stopped, or extend one.",
+    "show": "What a run did: errors and choices, also while it goes on.",
+    "answer": "Ask what was learned: the policy for a goal.",
+    "sweep": "Run many learners with many seeds side by side.",
+    "plot": "Draw errors, choices and explored outcomes.",
+}
+
+HELP = """\
+usage: sgim COMMAND …
+
+Learners that choose what to aim at, how to learn it, when to ask, and from whom.
+
+{commands}
+
+A first tour, of a few seconds:
+  sgim run throwing
+  sgim plot runs/throwing-sgim-acts-0.sgim --out figures
+  sgim answer runs/throwing-sgim-acts-0.sgim --goal throw=6.5,2.0
+
+More on a command: sgim COMMAND --help. The version: sgim --version.
+"""
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Carry out one command.
+
+    Args:
+        arguments: What follows ``sgim`` on the command line; None for those of this process.
+
+    Returns:
+        The exit code.
+    """
+    given = list(sys.argv[1:] if arguments is None else arguments)
+    with warnings.catch_warnings():
+        warnings.showwarning = _warn
+        try:
+            return _dispatch(given)
+        except SystemExit as stop:
+            return stop.code if isinstance(stop.code, int) else 1
+        except KeyboardInterrupt:
+            print("sgim: interrupted", file=sys.stderr)
+            return 130
+        except BrokenPipeError:
+            # Whoever read our output has gone; Python would complain again when it ends.
+            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+            return 1
+        except SgimError as error:
+            print(f"sgim: {error}", file=sys.stderr)
+            return _exit_code(error)
+
+
+def _dispatch(given: list[str]) -> int:
+    if not given or given[0] in ("-h", "--help"):
+        width = max(map(len, COMMANDS))
+        lines = [f"  {name:{width}}  {line}" for name, line in COMMANDS.items()]
+        print(HELP.format(commands="\n".join(lines)), end="")
+        return 0
+    name, *rest = given
+    if name == "--version":
+        print(f"sgim {version('sgim')}")
+        return 0
+    if name not in COMMANDS:
+        raise unknown("command", name, COMMANDS)
+    import tyro
+
+    command = import_module(f"sgim.cli.{name}").command
+    code = tyro.cli(command, prog=f"sgim {name}", args=rest, config=(tyro.conf.FlagCreatePairsOff,))
+    sys.stdout.flush()
+    return code or 0
+
+
+def _exit_code(error: SgimError) -> int:
+    from sgim.policy.model import NoAnswerError
+    from sgim.runs import RunError
+
+    return 1 if isinstance(error, JournalError | RunError | NoAnswerError) else 2
+
+
+def _warn(
+    message: Warning | str,
+    category: type[Warning],
+    filename: str,
+    lineno: int,
+    file: TextIO | None = None,
+    line: str | None = None,
+) -> Any:
+    print(f"sgim: warning: {message}", file=file or sys.stderr)

@@ -1,0 +1,189 @@
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from sgim.environments import PlanarArm
+from sgim.memory import Memory
+from sgim.policy.local_search import LocalSearch
+from sgim.policy.model import NearestModel
+from sgim.records import Goal, Trial
+from sgim.spaces import Box, Choices
+from sgim.task import Task
+from tests.helpers import PLANE, episode_for, plane, random_policies, remember, tell
+
+CENTRE = np.array([0.5, 0.5])
+
+
+def goal_at(policy: np.ndarray) -> Goal:
+    return Goal("place", plane(policy)["place"])
+
+
+def only_local(model: NearestModel, **options: float) -> LocalSearch:
+    return LocalSearch(model, least_global=0.0, most_global=0.0, **options)
+
+
+def first_proposal(model: NearestModel, goal: Goal, context: np.ndarray | None = None) -> np.ndarray:
+    search, episode = only_local(model), episode_for(model, goal, context)
+    search.begin(episode)
+    policy: np.ndarray = search.propose([episode])[0]
+    return policy
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_in_a_linear_world_the_linear_step_lands_on_the_goal(seed: int) -> None:
+    model = remember(PLANE, plane, random_policies(PLANE, 20, seed))
+    goal = goal_at(np.array([0.4, 0.6]))
+    before = -model.competence(goal, None)
+    landed = plane(first_proposal(model, goal))["place"]
+    assert np.linalg.norm(landed - goal.point) / 10 < 0.05 * before
+
+
+def test_of_the_steps_that_lead_to_the_goal_the_shortest_is_taken() -> None:
+    task = Task(Box(0, 1, names=["a", "b", "c"]), {"sum": Box(0, 3)})
+
+    def world(policy: np.ndarray) -> dict[str, np.ndarray]:
+        return {"sum": policy.sum(keepdims=True)}
+
+    start = np.array([0.5, 0.4, 0.6])
+    model = remember(task, world, [start, *(start - 0.1 * np.eye(3))])
+    step = first_proposal(model, Goal("sum", np.array([1.56]))) - start
+    np.testing.assert_allclose(step, [0.02, 0.02, 0.02], atol=1e-3)
+
+
+def test_the_linear_step_is_no_longer_than_the_neighbourhood_is_wide() -> None:
+    around = CENTRE + 0.03 * np.array([[0, 0], [1, 0], [0, 1], [-1, 0]])
+    model = remember(PLANE, plane, around)
+    policy = first_proposal(model, Goal("place", np.array([10.0, 10.0])))
+    assert min(np.linalg.norm(policy - b) for b in around) <= 0.06 + 1e-9
+
+
+def test_the_share_of_the_wanted_effect_that_a_context_brings_needs_no_step() -> None:
+    task = Task(Box(0, 1), {"x": Box(0, 2)}, context_space=Box(0, 1))
+    model = NearestModel(Memory(task))
+    for policy in np.linspace(0.1, 0.9, 9):
+        for wind in (0.0, 0.3):
+            trial = Trial(np.array([policy]), {"x": np.array([policy + wind])}, np.array([wind]))
+            model.update(trial)
+    # In a wind of 0.5, a policy of 0.3 produces 0.8.
+    policy = first_proposal(model, Goal("x", np.array([0.8])), np.array([0.5]))
+    assert policy[0] == pytest.approx(0.3, abs=0.03)
+
+
+def test_linear_and_differential_steps_alternate() -> None:
+    remembered = random_policies(PLANE, 6)
+    model = remember(PLANE, plane, remembered)
+    search, episode = only_local(model), episode_for(model, goal_at(CENTRE))
+    search.begin(episode)
+    linear, differential, again, _ = [search.propose([episode])[0] for _ in range(4)]
+    assert (linear == again).all()
+    best = model.best_policy(goal_at(CENTRE), None)
+    steps = [(one - other) for one in remembered for other in remembered]
+    along = [s for s in steps if s.any() and _is_share(differential - best, s)]
+    assert along
+
+
+def _is_share(step: np.ndarray, difference: np.ndarray) -> bool:
+    """Whether a step is the difference times a number from 0 to 0.7."""
+    share = step @ difference / (difference @ difference)
+    return bool(0 <= share <= 0.7 and np.allclose(step, share * difference, atol=1e-12))
+
+
+@given(st.integers(0, 10**6), st.lists(st.floats(-50, 60), min_size=2, max_size=2))
+@settings(max_examples=30, deadline=None)
+def test_what_is_proposed_lies_within_the_bounds(seed: int, place: list[float]) -> None:
+    model = remember(PLANE, plane, random_policies(PLANE, seed % 7, seed))
+    search = LocalSearch(model)
+    episode = episode_for(model, Goal("place", np.array(place)), seed=seed)
+    search.begin(episode)
+    for _ in range(25):
+        policy = PLANE.check_policy(search.propose([episode])[0])
+        tell(model, search, episode, Trial(policy, plane(policy)))
+
+
+def test_in_a_deterministic_world_episodes_come_closer_to_their_goals() -> None:
+    arm = PlanarArm(7, noise=0)
+    model = remember(arm.task, arm.execute, random_policies(arm.task, 20))
+    search = LocalSearch(model)
+    ratios = []
+    for seed in range(20):
+        reachable = arm.execute(random_policies(arm.task, 1, 100 + seed)[0])["hand"]
+        goal = Goal("hand", reachable)
+        episode = episode_for(model, goal, seed=seed)
+        assert episode.before is not None
+        assert episode.best is not None
+        search.begin(episode)
+        for _ in range(20):
+            policy = search.propose([episode])[0]
+            tell(model, search, episode, Trial(policy, arm.execute(policy)))
+        assert episode.best == pytest.approx(model.competence(goal, None), abs=1e-12)
+        ratios.append(episode.best / episode.before)
+    assert np.median(ratios) < 0.2
+
+
+def test_while_nothing_is_known_policies_are_random() -> None:
+    search = only_local(remember(PLANE, plane, []))
+    episodes = [episode_for(search.model, goal_at(CENTRE), seed=seed) for seed in range(300)]
+    for episode in episodes:
+        search.begin(episode)
+    drawn = np.array(search.propose(episodes))
+    np.testing.assert_allclose(drawn.mean(axis=0), [0.5, 0.5], atol=0.06)
+    np.testing.assert_allclose(drawn.std(axis=0), np.sqrt(1 / 12), atol=0.03)
+
+
+@pytest.mark.parametrize(
+    ("limits", "share"), [((0.02, 1.0), 0.5), ((0.8, 1.0), 0.8), ((0.02, 0.2), 0.2)]
+)
+def test_the_share_of_random_policies_is_the_cost_within_its_limits(
+    limits: tuple[float, float], share: float
+) -> None:
+    # Two remembered policies: local steps stay on the line through them.
+    on_line = [np.array([0.5, 0.5]), np.array([0.5, 0.4])]
+    model = remember(PLANE, plane, on_line)
+    search = LocalSearch(model, least_global=limits[0], most_global=limits[1])
+    goal = Goal("place", plane(on_line[0])["place"] - [0.0, 5.0])
+    assert model.competence(goal, None) == pytest.approx(-0.5, abs=0.03)
+    episodes = [episode_for(model, goal, seed=seed) for seed in range(500)]
+    for episode in episodes:
+        search.begin(episode)
+    off_line = [policy[0] != 0.5 for policy in search.propose(episodes)]
+    assert np.mean(off_line) == pytest.approx(share, abs=0.06)
+
+
+def test_trials_of_other_kinds_and_refusals_teach_the_search_nothing() -> None:
+    model = remember(PLANE, plane, random_policies(PLANE, 8))
+    goal = goal_at(CENTRE)
+    first, second = only_local(model), only_local(model)
+    episodes = [episode_for(model, goal), episode_for(model, goal)]
+    first.begin(episodes[0])
+    second.begin(episodes[1])
+    for _ in range(6):
+        policy = first.propose(episodes[:1])[0]
+        assert (policy == second.propose(episodes[1:])[0]).all()
+        first.learn(episodes[0], Trial(policy, {}), -1.0)
+        first.refuse(episodes[0])
+
+
+def test_a_search_ends_well_within_the_tolerance() -> None:
+    model = remember(PLANE, plane, random_policies(PLANE, 8))
+    search, episode = LocalSearch(model, tolerance=0.1), episode_for(model, goal_at(CENTRE))
+    for best, ended in ((-0.01, False), (-0.0011, False), (-0.0009, True), (0.0, True)):
+        episode.best = best
+        assert search.finished(episode) is ended
+
+
+def test_trials_of_the_episode_guide_its_next_steps() -> None:
+    model = remember(PLANE, plane, [])
+    search, episode = only_local(model), episode_for(model, goal_at(CENTRE))
+    search.begin(episode)
+    for policy in random_policies(PLANE, 5):
+        tell(model, search, episode, Trial(policy, plane(policy)))
+    assert episode.best is not None
+    landed = plane(search.propose([episode])[0])["place"]
+    assert np.linalg.norm(landed - plane(CENTRE)["place"]) / 10 < -0.1 * episode.best
+
+
+def test_policies_must_be_vectors() -> None:
+    task = Task(Choices(["look"]), PLANE.outcome_spaces)
+    with pytest.raises(TypeError, match="local search needs a policy space that is a Box"):
+        LocalSearch(remember(task, lambda _: {}, []))
