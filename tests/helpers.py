@@ -81,12 +81,20 @@ def report(
 
 
 class PlainProgress:
-    """Progress is the competence gained; interest is its mean: easy to reckon by hand."""
+    """Progress is the competence gained; interest is its mean: easy to reckon by hand.
+
+    Args:
+        window: How many of the newest records count.
+    """
+
+    def __init__(self, window: int = 1000) -> None:
+        self.window = window
 
     def progress(self, report: EpisodeReport) -> float:
         """The competence gained."""
         return report.after - report.before
 
     def interest(self, records: Sequence[Record]) -> float:
-        """The mean progress of all records."""
-        return sum(r.progress for r in records) / len(records) if records else 0.0
+        """The mean progress of the newest records."""
+        newest = records[-self.window :]
+        return sum(r.progress for r in newest) / len(newest) if newest else 0.0

@@ -29,6 +29,7 @@ from sgim.policy.model import NearestModel
 from sgim.policy.nelder_mead import NelderMeadSearch
 from sgim.policy.simple import Mimicry, NoisyNearest, RandomPolicies
 from sgim.strategy.modes import Mode
+from sgim.strategy.news import News
 from sgim.strategy.strategy import Aimless, JointChoice
 from sgim.streams import Streams
 from sgim.task import Task
@@ -47,7 +48,10 @@ class _Parts:
         """The goal-directed explorer."""
         if self.config.search == "nelder-mead":
             return NelderMeadSearch(self.model)
-        return LocalSearch(self.model, budget=self.config.search_movements)
+        config = self.config
+        return LocalSearch(
+            self.model, budget=config.search_movements, tolerance=config.reached_share
+        )
 
     def autonomous(self) -> Mode:
         return Mode("autonomous", self.search(), self.config.search_movements)
@@ -88,7 +92,8 @@ class _Parts:
             staleness=config.staleness,
             credit=config.credit,
         )
-        return JointChoice(modes, tree, alone)
+        news = News(self.task.outcome_spaces) if config.news and alone in modes else None
+        return JointChoice(modes, tree, alone, news)
 
 
 def random_policies(parts: _Parts, teachers: Sequence[str]) -> Any:

@@ -31,6 +31,11 @@ class Configuration:
         prior: Interest of untried pairs, before division by the cost.
         staleness: Interest that a pair regains with age, before division by the cost.
         credit: Whether progress counts where the goal was ``chosen``, or at what was ``pursued``.
+        sized: Whether progress is divided by the sizes |A_i| of eq. 4.2, which the task states.
+        news: Whether requests are given up for exploring alone unless they are expected to bring
+            a demonstration not seen before.
+        reached_share: Share of the task's tolerance within which local search counts a goal as
+            reached.
     """
 
     name: str
@@ -48,10 +53,14 @@ class Configuration:
     prior: float = 0.3
     staleness: float = 0.0
     credit: Literal["chosen", "pursued"] = "pursued"
+    sized: bool = True
+    news: bool = False
+    reached_share: float = 1.0
 
     def measure(self, task: Task) -> InterestMeasure:
         """How progress and interest are measured (eq. 4.2 and 4.3)."""
-        return MeanProgress(task.sizes, scale=self.progress_scale, window=self.progress_window)
+        sizes = task.sizes if self.sized else dict.fromkeys(task.sizes, 1.0)
+        return MeanProgress(sizes, scale=self.progress_scale, window=self.progress_window)
 
     def describe(self) -> dict[str, Any]:
         """The constants, JSON-compatible."""
@@ -67,6 +76,10 @@ MODERN = Configuration(
     goal_rules=(0.3, 0.5, 0.2),
     staleness=0.02,
     credit="chosen",
+    sized=False,
+    news=True,
+    reached_share=1.0,
+    search_movements=10,
 )
 CONFIGURATIONS = {c.name: c for c in (THESIS, MODERN)}
 

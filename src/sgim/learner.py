@@ -397,6 +397,7 @@ class Learner:
             before,
             after,
             closed.movements,
+            running.episode.demonstration,
         )
         self.strategy.update(report)
 

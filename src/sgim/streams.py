@@ -9,17 +9,32 @@ from __future__ import annotations
 
 import hashlib
 from functools import lru_cache
+from typing import Any, cast
 
 import numpy as np
+from numpy.random.bit_generator import ISeedSequence
+
+
+class _Words(ISeedSequence):
+    """Hands a generator the words it starts from; NumPy's own way takes three times as long."""
+
+    def __init__(self, words: np.ndarray[Any, np.dtype[np.uint64]]) -> None:
+        self.words = words
+
+    def generate_state(self, n_words: int, dtype: Any = np.uint32) -> Any:
+        """The words: a PCG64 asks for four of 64 bits."""
+        return self.words
 
 
 @lru_cache(maxsize=1024)
-def _digest(name: str) -> int:
-    return int.from_bytes(hashlib.blake2b(name.encode(), digest_size=8).digest(), "little")
+def _hash(seed: int, name: str) -> hashlib.blake2b:
+    return hashlib.blake2b(f"{seed}/{name}".encode(), digest_size=32)
 
 
 class Streams:
     """Named random streams of one run.
+
+    A stream starts from a BLAKE2 hash of seed, name and number, so that any two are independent.
 
     Args:
         seed: The run's seed, a non-negative integer.
@@ -37,5 +52,7 @@ class Streams:
 
     def __call__(self, name: str, index: int = 0) -> np.random.Generator:
         """Open the stream called ``name``, number ``index``, at its beginning."""
-        entropy = (self.seed, _digest(name), index)
-        return np.random.Generator(np.random.PCG64(np.random.SeedSequence(entropy)))
+        digest = _hash(self.seed, name).copy()
+        digest.update(index.to_bytes(8, "little", signed=True))
+        words = np.frombuffer(digest.digest(), dtype="<u8").astype(np.uint64, copy=False)
+        return np.random.Generator(np.random.PCG64(cast(Any, _Words(words))))

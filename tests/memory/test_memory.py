@@ -70,7 +70,9 @@ def filled(given_trials: list[Trial], task: Task = TASK) -> Memory:
 
 
 def same_bits(one: np.ndarray, other: np.ndarray) -> bool:
-    return one.dtype == other.dtype and one.shape == other.shape and one.tobytes() == other.tobytes()
+    return (
+        one.dtype == other.dtype and one.shape == other.shape and one.tobytes() == other.tobytes()
+    )
 
 
 @given(st.lists(trials(), max_size=30))
@@ -132,7 +134,9 @@ def test_trials_added_between_questions_are_found() -> None:
     kind = memory.kinds["place"]
     for number in range(200):
         memory.add(Trial(np.zeros(3), {"place": np.array([number / 200])}, np.zeros(1)))
-        distances, rows = kind.nearest(memory.key("place", np.array([number / 200]), np.zeros(1)), 1)
+        distances, rows = kind.nearest(
+            memory.key("place", np.array([number / 200]), np.zeros(1)), 1
+        )
         assert (distances[0], rows[0]) == (0.0, number)
 
 
@@ -186,7 +190,9 @@ def test_opaque_outcomes_are_remembered_beside_those_that_have_neighbours() -> N
 
 def test_labels_as_outcomes_have_neighbours() -> None:
     task = Task(Box(0, 1), {"word": Choices(["ba", "da"])})
-    memory = filled([Trial(np.array([i / 4]), {"word": w}) for i, w in enumerate(["da", "ba"])], task)
+    memory = filled(
+        [Trial(np.array([i / 4]), {"word": w}) for i, w in enumerate(["da", "ba"])], task
+    )
     distances, rows = memory.kinds["word"].nearest(memory.key("word", "ba", None), 2)
     assert rows.tolist() == [1, 0]
     assert distances.tolist() == pytest.approx([0.0, 1.0])

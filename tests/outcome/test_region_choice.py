@@ -187,9 +187,7 @@ def test_a_goal_and_its_context_lie_in_one_of_the_regions_of_that_context() -> N
 
 def test_contexts_outside_their_box_choose_as_at_its_border_and_teach_nothing() -> None:
     tree = with_contexts(INTERESTING)
-    outside, border = (
-        chosen(tree, ["alone"], np.array([wind]), 50) for wind in (2.5, 2.0)
-    )
+    outside, border = (chosen(tree, ["alone"], np.array([wind]), 50) for wind in (2.5, 2.0))
     assert [g.point.tobytes() for g, _ in outside] == [g.point.tobytes() for g, _ in border]
     before = tree.interests().tobytes()
     tree.update(report([5.0], "alone", context=np.array([2.5]), before=-1.0, after=0.0))

@@ -7,11 +7,14 @@ names something unknown; 130, interrupted.
 from __future__ import annotations
 
 import os
+import shutil
 import sys
 import warnings
 from collections.abc import Sequence
 from importlib import import_module
 from importlib.metadata import version
+from inspect import cleandoc
+from textwrap import fill
 from typing import Any, TextIO
 
 from sgim.errors import JournalError, SgimError, unknown
@@ -85,9 +88,25 @@ def _dispatch(given: list[str]) -> int:
     import tyro
 
     command = import_module(f"sgim.cli.{name}").command
-    code = tyro.cli(command, prog=f"sgim {name}", args=rest, config=(tyro.conf.FlagCreatePairsOff,))
+    code: int | None = tyro.cli(
+        command,
+        prog=f"sgim {name}",
+        description=_description(command.__doc__ or ""),
+        args=rest,
+        config=(tyro.conf.FlagCreatePairsOff,),
+    )
     sys.stdout.flush()
     return code or 0
+
+
+def _description(docstring: str) -> str:
+    """What a command's docstring says before its arguments, wrapped for the terminal."""
+    width = min(100, shutil.get_terminal_size().columns)
+    parts = cleandoc(docstring).partition("\n\nArgs:")[0].split("\n\n")
+    # The parser joins lines that are not indented.
+    return "\n\n".join(
+        part if "\n  " in part else fill(part, width, subsequent_indent="  ") for part in parts
+    )
 
 
 def _exit_code(error: SgimError) -> int:

@@ -52,9 +52,8 @@ def command(
 
     Args:
         experiment: Name of the experiment; sgim list has them.
-        learner: Name of the learner; sgim list has them. mimicry:T1 is short for
-            --learner mimicry --teacher T1.
-        teacher: The only teacher to ask.
+        learner: Name of the learner; sgim list has them.
+        teacher: The only teacher to ask; mimicry:T1 as learner says the same.
         configuration: The learner's constants: modern or thesis.
         seed: Of all random numbers; the same seed gives the same run.
         movements: How many movements to make.

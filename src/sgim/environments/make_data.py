@@ -63,7 +63,8 @@ def even_disc(count: int) -> FloatArray:
     """Points spread evenly over the unit disc in a sunflower's spiral, shape ``(count, 2)``."""
     radii = np.sqrt((np.arange(count) + 0.5) / count)
     angles = np.arange(count) * (np.pi * (3 - np.sqrt(5)))
-    return radii[:, None] * np.column_stack((np.cos(angles), np.sin(angles)))
+    points: FloatArray = radii[:, None] * np.column_stack((np.cos(angles), np.sin(angles)))
+    return points
 
 
 def throwing_pool(rng: np.random.Generator, count: int) -> FloatArray:

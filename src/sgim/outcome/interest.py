@@ -8,7 +8,7 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from sgim.records import Goal
+from sgim.records import Demonstration, Goal
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -25,6 +25,7 @@ class EpisodeReport:
         after: The better of ``before`` and what the episode's own trials showed; parallel
             episodes thus do not credit each other.
         movements: Trials executed in the episode, at least 1.
+        demonstration: What the teacher showed, in episodes that asked.
     """
 
     episode: int
@@ -35,6 +36,7 @@ class EpisodeReport:
     before: float
     after: float
     movements: int
+    demonstration: Demonstration | None = None
 
 
 class InterestMap(Protocol):

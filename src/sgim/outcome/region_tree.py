@@ -133,7 +133,7 @@ class RegionTree:
         """The leaf that contains a place of the unit box."""
         region = self.roots[kind]
         while region.children is not None:
-            region = region.children[place[region.axis] > region.cut]
+            region = region.children[bool(place[region.axis] > region.cut)]
         return region
 
     def update(self, report: EpisodeReport) -> None:

@@ -152,30 +152,34 @@ class LocalSearch:
         same shapes however many there are.
         """
         size, outcomes = self.local_policies, len(states[0].goal) - self.context_dimension
-        each, best = np.arange(len(states)), np.array([s.best for s in states])
-        policies = np.stack([s.policies for s in states])
-        keys = np.stack([s.keys for s in states])
+        each = np.arange(len(states))
+        best = np.array([state.best for state in states])
+        counts = [state.count for state in states]
+        if len(states) == 1:
+            policies, keys = states[0].policies[None], states[0].keys[None]
+            goals = states[0].goal[None]
+        else:
+            policies = np.array([state.policies for state in states])
+            keys = np.array([state.keys for state in states])
+            goals = np.array([state.goal for state in states])
         start = policies[each, best]
+        origin = keys[each, best]
         apart = policies - start[:, None]
         squares = np.einsum("bij,bij->bi", apart, apart)
-        for i, state in enumerate(states):
-            squares[i, state.count :] = np.inf
-        chosen = squares.argpartition(size - 1)[:, :size]
-        squares = squares[each[:, None], chosen]
-        empty = np.isinf(squares)
-        origin = keys[each, best]
-        inputs = apart[each[:, None], chosen]
-        keys = keys[each[:, None], chosen] - origin[:, None]
-        if empty.any():
-            squares[empty] = inputs[empty] = keys[empty] = 0.0
+        for i, count in enumerate(counts):
+            squares[i, count:] = np.inf
+        rows, chosen = each[:, None], squares.argpartition(size - 1)[:, :size]
+        squares = squares[rows, chosen]
+        inputs = apart[rows, chosen]
+        effects = keys[rows, chosen] - origin[:, None]
+        if min(counts) < size:
+            empty = squares == np.inf
+            squares[empty] = inputs[empty] = effects[empty] = 0.0
         if self.context_dimension:
-            inputs = np.concatenate((inputs, keys[:, :, outcomes:]), axis=2)
-        wanted = np.array([s.goal for s in states]) - origin
-        steps = self._solve(inputs, keys[:, :, :outcomes], wanted)
-        lengths = np.sqrt(np.einsum("bi,bi->b", steps, steps))
-        radius = np.sqrt(squares.max(axis=1))
-        steps *= (radius / np.maximum(lengths, np.maximum(radius, 1e-300)))[:, None]
-        point: FloatArray = start + steps
+            inputs = np.concatenate((inputs, effects[:, :, outcomes:]), axis=2)
+        steps = self._solve(inputs, effects[:, :, :outcomes], goals - origin)
+        limits = squares.max(axis=1) / np.einsum("bi,bi->b", steps, steps).clip(1e-300)
+        point: FloatArray = start + steps * np.sqrt(np.minimum(limits, 1.0))[:, None]
         return point
 
     def _solve(self, inputs: FloatArray, effects: FloatArray, wanted: FloatArray) -> FloatArray:

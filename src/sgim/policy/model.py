@@ -91,7 +91,8 @@ class NearestModel:
         if kind not in trial.outcome:
             return None
         if trial is self._last:
-            return self.memory.kinds[kind].keys.rows[-1]
+            last: FloatArray = self.memory.kinds[kind].keys.rows[-1]
+            return last
         return self.memory.key(kind, trial.outcome[kind], trial.context)
 
     def nearest(self, goal: Goal, context: Any) -> tuple[FloatArray, IntArray]:

@@ -154,6 +154,9 @@ def _scalar(value: object) -> object:
     raise TypeError(f"{value!r:.60} is a {type(value).__name__}, which JSON cannot hold")
 
 
+_encode = json.JSONEncoder(default=_scalar).encode
+
+
 def to_json(value: object) -> str:
     """Write JSON; the floats in it come back exactly."""
-    return json.dumps(value, default=_scalar)
+    return _encode(value)

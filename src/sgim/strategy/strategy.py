@@ -15,6 +15,7 @@ import numpy as np
 from sgim.outcome.interest import EpisodeReport, InterestMap
 from sgim.records import Goal
 from sgim.strategy.modes import Mode
+from sgim.strategy.news import News
 
 
 class Strategy(Protocol):
@@ -57,12 +58,21 @@ class JointChoice:
         interest: The map that learns which goals and modes bring progress.
         alone: What an episode falls back to when its request is not answered, and what is done
             while every teacher is absent; it need not be among ``modes``.
+        news: Estimates what a request can still bring; a request is given up for ``alone``
+            unless it is expected to bring news. None to ask whenever the map says so.
     """
 
-    def __init__(self, modes: Sequence[Mode], interest: InterestMap, alone: Mode) -> None:
+    def __init__(
+        self,
+        modes: Sequence[Mode],
+        interest: InterestMap,
+        alone: Mode,
+        news: News | None = None,
+    ) -> None:
         self.modes = _by_name(modes)
         self.interest = interest
         self.alone = alone
+        self.news = news
 
     def choose(
         self, rng: np.random.Generator, absent: Collection[str], context: Any
@@ -70,11 +80,16 @@ class JointChoice:
         """Let the interest map choose among the modes that are possible now."""
         present = [m.name for m in self.modes.values() if m.teacher not in absent]
         goal, name = self.interest.choose(rng, present or list(self.modes), context)
-        return (self.modes[name] if present else self.alone), goal
+        mode = self.modes[name] if present else self.alone
+        if self.news is not None and mode.teacher is not None:
+            mode = mode if rng.random() < self.news.expected(name) else self.alone
+        return mode, goal
 
     def update(self, report: EpisodeReport) -> None:
-        """Pass the report to the interest map."""
+        """Pass the report to the interest map; take in what was demonstrated."""
         self.interest.update(report)
+        if self.news is not None and report.demonstration is not None:
+            self.news.take_in(report.mode, report.demonstration)
 
 
 class Aimless:

@@ -1,0 +1,100 @@
+"""How the errors of learners fall: medians and interquartile bands over seeds."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from sgim.errors import SgimError
+from sgim.experiments import EXPERIMENTS
+from sgim.figures.style import MARKERS, OKABE_ITO, by_learner, new_figure, read_runs, tidy
+from sgim.runs.summary import RecordedRun
+from sgim.spaces import FloatArray
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+_LOGARITHMIC = 10.0
+"""Ratio of the largest to the smallest median from which the scale is logarithmic."""
+
+
+def error_curves(paths: Iterable[str | Path]) -> Figure:
+    """Draw errors over movements: a panel for each kind of goal, and one for their mean.
+
+    Each learner has a line, the median over its runs, and a band between the quartiles.
+
+    Args:
+        paths: Journals of runs of one experiment.
+
+    Raises:
+        SgimError: If they are of different experiments, or none was ever evaluated.
+        JournalError: If one cannot be read.
+    """
+    runs = [run for run in read_runs(paths) if run.evaluations]
+    if not runs:
+        raise SgimError("no run was evaluated: there are no errors to draw")
+    groups = by_learner(runs)
+    kinds = list(runs[0].evaluations[-1].errors)
+    figure = new_figure(max(4.0, 3.1 * len(kinds)), 3.4 + 0.18 * (len(groups) // 4))
+    panels = figure.subplots(1, len(kinds), squeeze=False)[0]
+    for panel, kind in zip(panels, kinds, strict=True):
+        medians = []
+        for i, (name, members) in enumerate(groups.items()):
+            movements, quartiles = _quartiles(members, kind)
+            colour = OKABE_ITO[i % len(OKABE_ITO)]
+            line, marker = ("-", "--", ":")[i // len(OKABE_ITO) % 3], MARKERS[i % len(MARKERS)]
+            label = name if len(members) == 1 else f"{name} ({len(members)} runs)"
+            panel.fill_between(
+                movements, quartiles[0], quartiles[2], color=colour, alpha=0.18, linewidth=0
+            )
+            panel.plot(
+                movements,
+                quartiles[1],
+                line + marker,
+                color=colour,
+                label=label,
+                markersize=3.5,
+                linewidth=1.4,
+            )
+            medians.append(quartiles[1])
+        panel.set_title("total (mean of the kinds)" if kind == "total" else kind)
+        panel.set_xlabel("movements")
+        panel.set_xlim(left=0)
+        values = np.concatenate(medians)
+        if values.min() > 0 and values.max() > _LOGARITHMIC * values.min():
+            panel.set_yscale("log")
+        else:
+            panel.set_ylim(bottom=0)
+        panel.grid(axis="y", color="#E5E5E5", linewidth=0.6)
+        tidy(panel)
+    experiment = EXPERIMENTS.get(runs[0].experiment or "")
+    panels[0].set_ylabel(f"error ({experiment.unit})" if experiment else "error")
+    handles, labels = panels[0].get_legend_handles_labels()
+    figure.legend(
+        handles,
+        labels,
+        loc="outside lower center",
+        ncols=min(4, len(labels)),
+        frameon=False,
+        fontsize=8,
+    )
+    return figure
+
+
+def _quartiles(runs: Sequence[RecordedRun], kind: str) -> tuple[FloatArray, FloatArray]:
+    """Quartiles of the errors wherever half of the runs or more were evaluated.
+
+    Returns:
+        Movements, shape ``(n,)``, and lower quartiles, medians and upper quartiles, ``(3, n)``.
+    """
+    errors: dict[int, list[float]] = {}
+    for run in runs:
+        for evaluation in run.evaluations:
+            if kind in evaluation.errors:
+                errors.setdefault(evaluation.movements, []).append(evaluation.errors[kind])
+    shown = sorted(m for m, values in errors.items() if 2 * len(values) >= len(runs))
+    columns = [np.percentile(errors[m], [25, 50, 75]) for m in shown]
+    return np.array(shown, dtype=np.float64), np.array(columns).reshape(-1, 3).T
