@@ -99,7 +99,7 @@ def test_check_lets_bounds_be_passed_and_contains_tells() -> None:
 @pytest.mark.parametrize("bad", [np.nan, np.inf, -np.inf, 1e200, -1e300])
 def test_a_coordinate_that_is_not_finite_or_absurdly_large_is_named(bad: float) -> None:
     box = Box([-1, -1], [1, 1], names=["distance", "height"])
-    with pytest.raises(SpaceError, match="outcome 'throw' has .* at 'height'; .* must be finite"):
+    with pytest.raises(SpaceError, match=r"outcome 'throw' has .* at 'height'; .* must be finite"):
         box.check([0.0, bad], "outcome 'throw'")
 
 
@@ -168,7 +168,7 @@ def test_labels_are_checked_sampled_and_packed() -> None:
 
 
 def test_an_unknown_label_is_refused_with_the_nearest_known() -> None:
-    with pytest.raises(SpaceError, match="goal: unknown label 'gren'. Did you mean 'green'?"):
+    with pytest.raises(SpaceError, match=r"unknown label 'gren'\. Did you mean 'green'"):
         Choices(["red", "green"]).check("gren", "goal")
     with pytest.raises(SpaceError, match="unknown label 3"):
         Choices(["red", "green"]).check(3)

@@ -39,7 +39,7 @@ def test_tolerances_and_sizes_must_be_positive(value: float) -> None:
 
 
 def test_a_tolerance_for_an_unknown_kind_suggests_the_nearest() -> None:
-    with pytest.raises(UnknownNameError, match="tolerance.*Did you mean 'throw'"):
+    with pytest.raises(UnknownNameError, match=r"tolerance.*Did you mean 'throw'"):
         Task(THROW, {"throw": THROW}, tolerances={"thrown": 0.1})
 
 
@@ -65,12 +65,12 @@ def test_outcomes_may_lie_outside_their_box_and_kinds_may_be_missing() -> None:
 
 @pytest.mark.parametrize("outcome", [None, 3, [1.0, 2.0], np.zeros(2)])
 def test_an_outcome_that_is_no_mapping_is_refused_with_the_kinds(outcome: object) -> None:
-    with pytest.raises(SpaceError, match="expected a mapping kind → point .* throw, word"):
+    with pytest.raises(SpaceError, match=r"expected a mapping kind → point .* throw, word"):
         TASK.check_outcome(outcome)  # type: ignore[arg-type]
 
 
 def test_an_unknown_kind_suggests_the_nearest() -> None:
-    with pytest.raises(UnknownNameError, match="outcome kind 'thro'. Did you mean 'throw'"):
+    with pytest.raises(UnknownNameError, match=r"outcome kind 'thro'\. Did you mean 'throw'"):
         TASK.check_outcome({"thro": [0, 0]})
     with pytest.raises(UnknownNameError, match="goal kind 'word '"):
         TASK.check_goal("word ", "ba")

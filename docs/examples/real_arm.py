@@ -11,6 +11,7 @@ import numpy as np
 import sgim
 from sgim.errors import SgimError
 from sgim.primitives import PiecewiseAcceleration
+from sgim.records import Outcome
 from sgim.teachers import DemonstrationSet
 
 SAMPLES = 50  # a second
@@ -43,7 +44,7 @@ class Arm:
         return trial % 40 == 39
 
 
-def hit(recorded: sgim.Trajectory) -> sgim.records.Outcome:
+def hit(recorded: sgim.Trajectory) -> Outcome:
     """Where the stick was at the end of a movement, and how fast."""
     angle, times = recorded.positions[:, 0], recorded.times
     speed = (angle[-1] - angle[-4]) / (times[-1] - times[-4])

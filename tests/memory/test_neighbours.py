@@ -294,3 +294,17 @@ def test_a_dimension_or_buffer_size_below_one_is_refused():
         NearestNeighbours(0)
     with pytest.raises(ValueError, match="buffer_size is 0, expected at least 1"):
         NearestNeighbours(2, buffer_size=0)
+
+
+@pytest.mark.parametrize("dimension", [1, 2, 3])
+def test_many_points_asked_at_once_get_the_answers_of_one_by_one(dimension):
+    rng = np.random.default_rng(dimension)
+    found = NearestNeighbours(dimension, buffer_size=50)
+    # A coarse grid, so that there are equal points and ties.
+    found.extend(np.round(rng.random((230, dimension)), 1))
+    wanted = np.round(rng.random((300, dimension)), 2)
+    distances, indices = found.query_batch(wanted, 1)
+    for i, point in enumerate(wanted):
+        one = found.query(point, 1)
+        assert (distances[i] == one[0]).all()
+        assert (indices[i] == one[1]).all()

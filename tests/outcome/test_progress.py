@@ -5,9 +5,9 @@ import math
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from tests.helpers import report
 
 from sgim.outcome.progress import CompetenceChange, MeanProgress, Record
-from tests.helpers import report
 
 
 def with_progress(*values: float) -> list[Record]:

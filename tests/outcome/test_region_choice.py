@@ -5,12 +5,12 @@ from typing import Any
 
 import numpy as np
 import pytest
+from tests.helpers import PlainProgress, report
 
 from sgim.outcome.region_tree import RegionTree
 from sgim.records import Goal
 from sgim.spaces import Box
 from sgim.streams import Streams
-from tests.helpers import PlainProgress, report
 
 SPACES = {"place": Box(0, 10), "throw": Box([-1, 0], [1, 2])}
 MODES = {"alone": 1.0, "ask": 2.0}

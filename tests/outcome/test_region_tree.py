@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from tests.helpers import PlainProgress, report
 
 from sgim.outcome.interest import EpisodeReport
 from sgim.outcome.progress import CompetenceChange, Record
@@ -14,7 +15,6 @@ from sgim.outcome.region_tree import Region, RegionTree
 from sgim.records import Goal
 from sgim.spaces import Box, Choices
 from sgim.streams import Streams
-from tests.helpers import PlainProgress, report
 
 MODES = {"alone": 1.0, "ask": 2.0}
 PLACE = Box([0, 0], [10, 20])

@@ -2,13 +2,13 @@ from collections import Counter
 
 import numpy as np
 import pytest
+from tests.helpers import PlainProgress, report
 
 from sgim.outcome.interest import UniformGoals
 from sgim.outcome.progress import CompetenceChange
 from sgim.outcome.table import InterestTable
 from sgim.records import Goal
 from sgim.spaces import Box, Choices
-from tests.helpers import PlainProgress, report
 
 TOYS = Choices(["dog", "car", "ball"])
 MODES = {"push": 1.0, "ask": 2.0}

@@ -2,6 +2,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from tests.helpers import PLANE, episode_for, plane, random_policies, remember, tell
 
 from sgim.environments import PlanarArm
 from sgim.memory import Memory
@@ -11,7 +12,6 @@ from sgim.policy.model import NearestModel
 from sgim.records import Goal, Trial
 from sgim.spaces import Box, Choices
 from sgim.task import Task
-from tests.helpers import PLANE, episode_for, plane, random_policies, remember, tell
 
 CENTRE = np.array([0.5, 0.5])
 
@@ -184,14 +184,16 @@ def test_a_search_ends_well_within_the_tolerance() -> None:
 
 
 def test_trials_of_the_episode_guide_its_next_steps() -> None:
-    model = remember(PLANE, plane, [])
-    search, episode = LocalSearch(model), local_episode(model, goal_at(CENTRE))
-    search.begin(episode)
-    costs = []
-    for _ in range(12):
-        (policy,) = search.propose([episode])
-        costs.append(-tell(model, search, episode, Trial(policy, plane(policy))))
-    assert min(costs[6:]) < 0.05 * min(costs[:2])
+    reached = []
+    for seed in range(10):
+        model = remember(PLANE, plane, [])
+        search, episode = LocalSearch(model), episode_for(model, goal_at(CENTRE), seed=seed)
+        search.begin(episode)
+        for _ in range(20):
+            (policy,) = search.propose([episode])
+            tell(model, search, episode, Trial(policy, plane(policy)))
+        reached.append(episode.best)
+    assert np.median(reached) > -0.01
 
 
 def test_an_episode_may_go_on_for_longer_than_its_usual_budget() -> None:

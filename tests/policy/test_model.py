@@ -3,13 +3,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
+from tests.helpers import PLANE, plane, random_policies, remember
 
 from sgim.memory import Memory
 from sgim.policy.model import InverseModel, NearestModel, NoAnswerError
 from sgim.records import Goal, Trial
 from sgim.spaces import Box, Choices
 from sgim.task import Task
-from tests.helpers import PLANE, plane, random_policies, remember
 
 POINTS = arrays(np.float64, 2, elements=st.floats(-5, 15))
 WINDY = Task(Box(0, 1), {"x": Box(0, 10)}, context_space=Box(0, 2))
@@ -163,7 +163,7 @@ def test_a_goal_within_the_tolerance_seems_reachable_and_a_far_one_does_not() ->
     model = remember(PLANE, plane, random_policies(PLANE, 300))
     produced = plane(random_policies(PLANE, 300)[7])["place"]
     assert model.solve(Goal("place", produced), None).reachable
-    assert model.solve(Goal("place", produced + [0.05, 0.05]), None).reachable
+    assert model.solve(Goal("place", produced + 0.05), None).reachable
     assert not model.solve(place(10, 0), None).reachable
 
 

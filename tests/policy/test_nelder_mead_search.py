@@ -2,13 +2,13 @@
 
 import numpy as np
 import pytest
+from tests.helpers import PLANE, episode_for, plane, random_policies, remember, tell
 
 from sgim.policy.model import NearestModel
 from sgim.policy.nelder_mead import NelderMeadSearch
 from sgim.records import Goal, Trial
 from sgim.spaces import Choices
 from sgim.task import Task
-from tests.helpers import PLANE, episode_for, plane, random_policies, remember, tell
 
 CENTRE = np.array([0.5, 0.5])
 AROUND = CENTRE + 0.02 * np.array([[0, 0], [1, 0], [0, 1], [-1, 1], [1, -1], [-1, -1]])

@@ -2,6 +2,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from tests.helpers import PLANE, episode_for, plane, random_policies, remember
 
 from sgim.errors import TeacherError
 from sgim.policy.explorer import Episode
@@ -9,7 +10,6 @@ from sgim.policy.simple import Mimicry, NoisyNearest, RandomPolicies, in_ball
 from sgim.records import Demonstration, Goal, Trajectory
 from sgim.spaces import Box, Choices
 from sgim.task import Task
-from tests.helpers import PLANE, episode_for, plane, random_policies, remember
 
 WIDE = Box([0, 0, 0], [100, 1, 1])
 CENTRE = np.array([50.0, 0.5, 0.5])

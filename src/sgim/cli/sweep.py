@@ -52,7 +52,7 @@ def command(
     names = [name.strip() for name in learners.split(",") if name.strip()]
     numbers = parse_seeds(seeds)
     target = world.movements if movements is None else movements
-    shown = SweepProgress(f"{world.name}, {len(names)} learners", len(names) * len(numbers))
+    shown = SweepProgress(world.name, len(names) * len(numbers))
     try:
         with shown:
             results = sweep(

@@ -11,7 +11,7 @@ from sgim.runs.summary import RecordedRun
 from sgim.spaces import Box, Space
 
 MOST_ROWS = 12
-"""Rows of a table of evaluations; of more, some are left out evenly."""
+"""Rows of a table of evaluations; of more, every so manieth is shown, up to the last."""
 
 
 def table(rows: Sequence[Sequence[str]], *, right: bool = False, indent: str = "  ") -> str:
@@ -38,12 +38,9 @@ def evaluations(run: RecordedRun, unit: str = "") -> str:
     if not run.evaluations:
         return ""
     kinds = list(run.evaluations[-1].errors)
-    n = len(run.evaluations)
-    count = min(n, MOST_ROWS)
-    chosen = sorted({round(i * (n - 1) / max(1, count - 1)) for i in range(count)})
+    every = -(-len(run.evaluations) // MOST_ROWS)
     rows = [["movements", *kinds]]
-    for i in chosen:
-        evaluation = run.evaluations[i]
+    for evaluation in run.evaluations[::-every][::-1]:
         errors = [f"{evaluation.errors[kind]:#.3g}" for kind in kinds]
         rows.append([str(evaluation.movements), *errors])
     return f"errors{f' ({unit})' if unit else ''}\n{table(rows, right=True)}"

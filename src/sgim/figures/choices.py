@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-_EPISODES = 15
+_EPISODES = 40
 """Episodes that a window should hold, all runs together, before windows get narrower."""
 
 _COLUMNS = (("modes", "how to learn (mode)"), ("kinds", "what to aim at (kind of goal)"))
@@ -52,18 +52,21 @@ def choices(paths: Iterable[str | Path]) -> Figure:
     }
     end = max(run.movements for run in runs)
     legend_rows = max(-(-len(names) // 3) for names in colours.values())
-    figure = new_figure(8.0, 0.7 + 1.45 * len(groups) + 0.22 * legend_rows)
+    figure = new_figure(8.0, 0.75 + 1.45 * len(groups) + 0.17 * legend_rows)
     grid = figure.add_gridspec(
-        len(groups) + 1, 2, height_ratios=[*[1.45] * len(groups), 0.25 + 0.2 * legend_rows]
+        len(groups) + 1, 2, height_ratios=[*[1.45] * len(groups), 0.05 + 0.17 * legend_rows]
     )
     for row, (name, members) in enumerate(groups.items()):
         edges = _edges(members)
         for column, (key, title) in enumerate(_COLUMNS):
             axes = figure.add_subplot(grid[row, column])
-            _stack(axes, edges, _mean_shares(members, edges, key, list(colours[key])), colours[key])
+            shares = _mean_shares(members, edges, key, list(colours[key]))
+            _stack(axes, edges, shares, colours[key])
+            if not shares.any():
+                axes.text(0.5, 0.5, "no goals", transform=axes.transAxes, ha="center", fontsize=8)
             axes.set_xlim(0, end)
             axes.set_ylim(0, 1)
-            axes.set_yticks([0, 0.5, 1], ["0", "50 %", "100 %"])
+            axes.set_yticks([0, 0.5, 1], ["0", "50%", "100%"])
             if row == 0:
                 axes.set_title(title)
             if row == len(groups) - 1:
@@ -111,7 +114,6 @@ def _legend(axes: Axes, colours: Mapping[str, str]) -> None:
     axes.axis("off")
     handles = [Patch(color=colour, label=name) for name, colour in colours.items()]
     if not handles:
-        axes.text(0.5, 0.5, "these learners choose no goals", ha="center", fontsize=8)
         return
     axes.legend(
         handles=handles,

@@ -15,6 +15,7 @@ from sgim.runs.summary import RecordedRun
 from sgim.spaces import FloatArray
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
 _LOGARITHMIC = 10.0
@@ -38,6 +39,8 @@ def error_curves(paths: Iterable[str | Path]) -> Figure:
         raise SgimError("no run was evaluated: there are no errors to draw")
     groups = by_learner(runs)
     kinds = list(runs[0].evaluations[-1].errors)
+    if len(kinds) == 2:
+        kinds.remove("total")  # the same as the only kind
     figure = new_figure(max(4.0, 3.1 * len(kinds)), 3.4 + 0.18 * (len(groups) // 4))
     panels = figure.subplots(1, len(kinds), squeeze=False)[0]
     for panel, kind in zip(panels, kinds, strict=True):
@@ -63,11 +66,7 @@ def error_curves(paths: Iterable[str | Path]) -> Figure:
         panel.set_title("total (mean of the kinds)" if kind == "total" else kind)
         panel.set_xlabel("movements")
         panel.set_xlim(left=0)
-        values = np.concatenate(medians)
-        if values.min() > 0 and values.max() > _LOGARITHMIC * values.min():
-            panel.set_yscale("log")
-        else:
-            panel.set_ylim(bottom=0)
+        _scale(panel, np.concatenate(medians))
         panel.grid(axis="y", color="#E5E5E5", linewidth=0.6)
         tidy(panel)
     experiment = EXPERIMENTS.get(runs[0].experiment or "")
@@ -82,6 +81,21 @@ def error_curves(paths: Iterable[str | Path]) -> Figure:
         fontsize=8,
     )
     return figure
+
+
+def _scale(axes: Axes, values: FloatArray) -> None:
+    """Choose a linear or a logarithmic scale for these errors, with plain numbers as labels."""
+    from matplotlib.ticker import LogLocator, NullFormatter
+
+    low, high = float(values.min()), float(values.max())
+    if low <= 0 or high <= _LOGARITHMIC * low:
+        axes.set_ylim(bottom=0)
+        return
+    axes.set_yscale("log")
+    steps = (1.0,) if high > 100 * low else (1.0, 2.0, 5.0)
+    axes.yaxis.set_major_locator(LogLocator(subs=steps))
+    axes.yaxis.set_major_formatter(lambda value, _: f"{value:g}")
+    axes.yaxis.set_minor_formatter(NullFormatter())
 
 
 def _quartiles(runs: Sequence[RecordedRun], kind: str) -> tuple[FloatArray, FloatArray]:

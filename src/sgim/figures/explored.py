@@ -50,8 +50,9 @@ def explored(path: str | Path, task: Task | None = None) -> Figure:
     found = _outcomes(path, run.task)
     if not any(found[kind][0] for kind in spaces):
         raise SgimError(f"{path} has no outcome that can be drawn")
-    figure = new_figure(0.9 + 3.8 * len(spaces), 3.4)
-    panels = figure.subplots(1, len(spaces), squeeze=False)[0]
+    widths = [_width(space) for space in spaces.values()]
+    figure = new_figure(0.9 + sum(widths), 3.4)
+    panels = figure.subplots(1, len(spaces), squeeze=False, width_ratios=widths)[0]
     end = max(1, run.movements)
     for panel, (kind, space) in zip(panels, spaces.items(), strict=True):
         when, points = np.array(found[kind][0]), found[kind][1]
@@ -92,6 +93,8 @@ def _draw(axes: Axes, space: Space, when: Any, points: list[Any], end: int) -> N
         axes.set_ylabel("movements")
         axes.tick_params(axis="x", rotation=30 if len(labels) > 4 else 0)
         return
+    from matplotlib.ticker import MaxNLocator
+
     assert isinstance(space, Box)
     values = np.array(points)
     names = [f"{n} ({u})" if u else n for n, u in zip(space.names, space.units, strict=True)]
@@ -102,6 +105,7 @@ def _draw(axes: Axes, space: Space, when: Any, points: list[Any], end: int) -> N
         colours = [_colour(p) for p in range(_PARTS)]
         axes.hist(groups, bins=_BINS, range=span, stacked=True, color=colours)
         axes.set_ylabel("movements")
+        axes.yaxis.set_major_locator(MaxNLocator(integer=True))
         axes.set_xlim(*span)
         return
     axes.set_ylabel(names[1])
@@ -123,12 +127,28 @@ def _draw(axes: Axes, space: Space, when: Any, points: list[Any], end: int) -> N
     _limit(axes, space, values)
 
 
+def _is_plane(space: Space) -> bool:
+    """Whether both coordinates have the same unit and similar ranges, to be drawn to scale."""
+    if not isinstance(space, Box) or space.dimension < 2 or space.units[0] != space.units[1]:
+        return False
+    return bool(0.5 <= space.range[0] / space.range[1] <= 2)
+
+
+def _width(space: Space) -> float:
+    """Width of a kind's panel in inches."""
+    if isinstance(space, Box) and _is_plane(space):
+        return max(2.9, 0.9 + 2.5 * float(space.range[0] / space.range[1]))
+    return 3.8
+
+
 def _limit(axes: Axes, space: Box, values: FloatArray) -> None:
     """Show the box with a margin, and say how much lies outside of what is shown."""
     margin = 0.04 * space.range[:2]
     low, high = space.low[:2] - margin, space.high[:2] + margin
     axes.set_xlim(low[0], high[0])
     axes.set_ylim(low[1], high[1])
+    if _is_plane(space):
+        axes.set_aspect("equal")
     outside = float(((values[:, :2] < low) | (values[:, :2] > high)).any(axis=1).mean())
     if outside >= 0.005:
         axes.text(

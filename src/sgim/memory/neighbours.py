@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import math
 import operator
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -23,6 +24,7 @@ Neighbours = tuple[FloatArray, IndexArray]
 _Answer = tuple[IndexArray, Any]  # What one tree proposes: rows, and where it stopped.
 
 _LARGEST = 1e150  # Of a coordinate's magnitude: squares of differences must not overflow.
+_WORTH_A_TREE = 64  # Points asked for at once, for which a tree over the newest pays.
 _MERGE_RATIO = 6  # Raising it leaves fewer trees to ask, and merges more; 4 to 6 is best at 10^6.
 # Trees round, and underflow, in their own way: asking for this much more loses no point.
 _SLACK, _TINY = 1 + 1e-9, 1e-160
@@ -46,6 +48,16 @@ def _squared_distances(columns: FloatArray, point: FloatArray) -> FloatArray:
     for squares in differences[1:]:
         total += squares
     return total
+
+
+def _rowwise_distances(points: FloatArray, others: FloatArray) -> FloatArray:
+    """Distance of each row to the row of ``others``, to the last bit as by the function above."""
+    total = np.zeros(len(points))
+    for column in range(points.shape[1]):
+        difference = points[:, column] - others[:, column]
+        total += difference * difference
+    distances: FloatArray = np.sqrt(total)
+    return distances
 
 
 def _bound_on_smallest(values: FloatArray, k: int) -> float:
@@ -92,6 +104,12 @@ class _Tree:
         """Indices of the points within ``radius``, the first ``limit`` of equal ones."""
         rows = self._tree.query_ball_point(point, radius)
         return self.indices(np.array(rows, dtype=np.intp), limit)
+
+    def firsts(self, rows: IndexArray) -> IndexArray:
+        """The first index among the equal points that each row stands for."""
+        if self.distinct == self.size:
+            return rows + self.start
+        return self._members[self._starts[rows]]
 
     def indices(self, rows: IndexArray, limit: int) -> IndexArray:
         """Indices of the points that rows stand for, the first ``limit`` of equal ones."""
@@ -175,10 +193,36 @@ class NearestNeighbours:
         distances = np.empty((len(checked), k))
         indices = np.empty((len(checked), k), dtype=np.intp)
         answers = [tree.nearest(checked, k) for tree in self._trees]
-        for i, point in enumerate(checked):
+        left: Sequence[int] = range(len(checked))
+        if k == 1 and len(checked) >= _WORTH_A_TREE:
+            left = self._nearest_together(checked, answers, distances, indices)
+        for i in left:
             answer = [(rows[i], horizon[i]) for rows, horizon in answers]
-            distances[i], indices[i] = self._select(point, answer, k)
+            distances[i], indices[i] = self._select(checked[i], answer, k)
         return distances, indices
+
+    def _nearest_together(
+        self,
+        points: FloatArray,
+        answers: list[_Answer],
+        distances: FloatArray,
+        indices: IndexArray,
+    ) -> Sequence[int]:
+        """Fill in the one nearest to each of many points; return the rows left, for ties."""
+        trees, answers = [*self._trees], [*answers]
+        if self._count > self._in_trees:
+            newest = _Tree(self._storage[self._in_trees : self._count], self._in_trees)
+            trees.append(newest)
+            answers.append(newest.nearest(points, 1))
+        parts = [tree.firsts(rows[:, 0]) for tree, (rows, _) in zip(trees, answers, strict=True)]
+        found = np.array(parts)
+        apart = np.array([_rowwise_distances(self._storage[part], points) for part in parts])
+        order = np.lexsort((found, apart), axis=0)[0]
+        every = np.arange(len(points))
+        distances[:, 0], indices[:, 0] = apart[order, every], found[order, every]
+        reach = distances[:, 0] * _SLACK + _TINY
+        doubtful = np.any([horizon <= reach for _, horizon in answers], axis=0)
+        return [int(i) for i in np.flatnonzero(doubtful)]
 
     def within(self, point: ArrayLike, radius: float) -> Neighbours:
         """Find all at most ``radius`` from a point, shape (d,): distances and indices, sorted."""

@@ -165,12 +165,14 @@ class RegionTree:
         rng = self.streams("interest/split", len(self.leaves))
         records, dimension = region.records[mode], len(region.low)
         best_quality, best = -1.0, None
+        parted: set[tuple[int, int]] = set()
         axes = rng.integers(dimension, size=self.candidates).tolist()
         for axis, share in zip(axes, rng.random(self.candidates).tolist(), strict=True):
             cut = region.low[axis] + share * (region.high[axis] - region.low[axis])
             below = [r for r in records if r.place[axis] <= cut]
-            above = [r for r in records if r.place[axis] > cut]
-            if below and above:
+            if 0 < len(below) < len(records) and (axis, len(below)) not in parted:
+                parted.add((axis, len(below)))  # another cut that parts them alike is no better
+                above = [r for r in records if r.place[axis] > cut]
                 gap = abs(self.measure.interest(below) - self.measure.interest(above))
                 quality = len(below) * len(above) * gap
                 if quality > best_quality:

@@ -17,7 +17,17 @@ from sgim.spaces import Box, FloatArray
 class _State:
     """What an episode's search knows: trials near the goal, the episode's own among them."""
 
-    __slots__ = ("best", "costs", "count", "goal", "keys", "policies", "proposed", "turn")
+    __slots__ = (
+        "best",
+        "costs",
+        "count",
+        "goal",
+        "keys",
+        "policies",
+        "proposed",
+        "steps",
+        "turn",
+    )
 
     def __init__(
         self,
@@ -35,8 +45,28 @@ class _State:
         self.keys[:n] = keys
         self.costs: list[float] = distances.tolist()
         self.best = 0 if n else -1
-        self.turn = 0
+        self.turn = -1
+        self.steps: list[FloatArray] = []
         self.proposed = policies[:0]
+
+    def near(self, size: int) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Offsets from the best policy, and of their keys, for the policies nearest to it.
+
+        Returns:
+            Shapes ``(size, dimension)`` and ``(size, key dimension)``, and the squared lengths
+            of the offsets, shape ``(size,)``; rows of zeros where there are too few.
+        """
+        n = self.count
+        if n < size:  # the rows behind the last are zero, but their offsets would not be
+            apart = np.zeros((size, self.policies.shape[1]))
+            effects = np.zeros((size, self.keys.shape[1]))
+            apart[:n] = self.policies[:n] - self.policies[self.best]
+            effects[:n] = self.keys[:n] - self.keys[self.best]
+            return apart, effects, np.einsum("ij,ij->i", apart, apart)
+        apart = self.policies[:n] - self.policies[self.best]
+        squares = np.einsum("ij,ij->i", apart, apart)
+        chosen = squares.argpartition(size - 1)[:size]
+        return apart[chosen], self.keys[chosen] - self.keys[self.best], squares[chosen]
 
     def add(self, policy: FloatArray, key: FloatArray, cost: float) -> None:
         n = self.count
@@ -53,14 +83,15 @@ class _State:
 
 
 class LocalSearch:
-    """Alternates a step on a local linear map from policies to outcomes with differential steps.
+    """Alternates steps on a local linear map from policies to outcomes with differential steps.
 
     Starting from the remembered trials with the outcomes nearest to the goal, to which the
     episode's own are added: (a) fit a linear map by ridge regression to the trials whose
     policies are nearest to the best one, and take its minimum-norm step to the goal, no longer
     than the neighbourhood is wide; (b) add a scaled difference of two of the policies to the
-    best one, as differential evolution does (Storn and Price 1997). With a probability equal
-    to the goal's cost, within limits, try a random policy instead (thesis algorithm 3.2.4).
+    best one, as differential evolution does (Storn and Price 1997). With a probability equal to
+    the goal's cost, and no less than ``least_global``, try a random policy instead (thesis
+    algorithm 3.2.4).
 
     Args:
         model: The memory's model; the policy space must be a `Box`.
@@ -68,6 +99,7 @@ class LocalSearch:
         local_policies: How many policies the linear map is fitted to.
         ridge: Ridge, relative to the mean squared offset of the policies.
         differential_weight: Largest weight F of the difference.
+        differential_block: How many differences are drawn at once.
         least_global: Least probability of a random policy.
         tolerance: Share of the task's tolerance below which a goal counts as reached.
     """
@@ -80,6 +112,7 @@ class LocalSearch:
         local_policies: int = 16,
         ridge: float = 1e-3,
         differential_weight: float = 0.7,
+        differential_block: int = 3,
         least_global: float = 0.02,
         tolerance: float = 0.1,
     ) -> None:
@@ -94,6 +127,7 @@ class LocalSearch:
         self.local_policies = local_policies
         self.ridge = ridge
         self.differential_weight = differential_weight
+        self.differential_block = differential_block
         self.least_global = least_global
         self.tolerance = tolerance
 
@@ -113,21 +147,19 @@ class LocalSearch:
 
     def propose(self, episodes: Sequence[Episode]) -> list[Any]:
         """A random, linear or differential step for each episode."""
-        linear: dict[int, list[int]] = {}
         points: list[FloatArray] = []
+        linear: dict[int, list[int]] = {}
         for i, episode in enumerate(episodes):
             state: _State = episode.state
-            chance, *draws = episode.rng.random(4).tolist()
-            cost = min(1.0, state.costs[state.best]) if state.count else 1.0
-            if state.count == 0 or chance < max(self.least_global, cost):
-                points.append(episode.rng.random(self.space.dimension))
-                continue
             state.turn += 1
-            if state.turn % 2 and state.count > 2:
+            cost = min(1.0, state.costs[state.best]) if state.count else 1.0
+            if state.count == 0 or episode.rng.random() < max(self.least_global, cost):
+                points.append(episode.rng.random(self.space.dimension))
+            elif state.turn % 2 == 0 and state.count > 2:
                 linear.setdefault(len(state.goal), []).append(i)
                 points.append(state.goal)
             else:
-                points.append(self._differential(state, *draws))
+                points.append(self._differential(state, episode.rng))
         for chosen in linear.values():
             steps = self._linear_steps([episodes[i].state for i in chosen])
             for i, point in zip(chosen, steps, strict=True):
@@ -139,66 +171,43 @@ class LocalSearch:
             decoded.append(self.space.decode(clipped))
         return decoded
 
-    def _differential(self, state: _State, one: float, other: float, share: float) -> FloatArray:
-        i, j = int(one * state.count), int(other * state.count)
-        step = self.differential_weight * share * (state.policies[i] - state.policies[j])
-        point: FloatArray = state.policies[state.best] + step
+    def _differential(self, state: _State, rng: np.random.Generator) -> FloatArray:
+        """The next of a few differential steps that are drawn together."""
+        if not len(state.steps):
+            one, other, share = rng.random((3, self.differential_block))
+            pairs = (one * state.count).astype(np.intp), (other * state.count).astype(np.intp)
+            apart = state.policies[pairs[0]] - state.policies[pairs[1]]
+            state.steps = list(apart * (self.differential_weight * share)[:, None])
+        point: FloatArray = state.policies[state.best] + state.steps.pop()
         return point
 
     def _linear_steps(self, states: Sequence[_State]) -> FloatArray:
         """Where each state's local linear map puts its goal, shape ``(states, dimension)``.
 
-        Arrays are stacked, so that each state's numbers go through the same operations on the
-        same shapes however many there are.
+        The map is fitted over policies and contexts; the context's share of the wanted effect
+        comes without a step. Arrays are stacked, so that each state's numbers go through the
+        same operations on the same shapes however many there are.
         """
-        size, outcomes = self.local_policies, len(states[0].goal) - self.context_dimension
-        each = np.arange(len(states))
-        best = np.array([state.best for state in states])
-        counts = [state.count for state in states]
-        if len(states) == 1:
-            policies, keys = states[0].policies[None], states[0].keys[None]
-            goals = states[0].goal[None]
-        else:
-            policies = np.array([state.policies for state in states])
-            keys = np.array([state.keys for state in states])
-            goals = np.array([state.goal for state in states])
-        start = policies[each, best]
-        origin = keys[each, best]
-        apart = policies - start[:, None]
-        squares = np.einsum("bij,bij->bi", apart, apart)
-        for i, count in enumerate(counts):
-            squares[i, count:] = np.inf
-        rows, chosen = each[:, None], squares.argpartition(size - 1)[:, :size]
-        squares = squares[rows, chosen]
-        inputs = apart[rows, chosen]
-        effects = keys[rows, chosen] - origin[:, None]
-        if min(counts) < size:
-            empty = squares == np.inf
-            squares[empty] = inputs[empty] = effects[empty] = 0.0
+        dimension, outcomes = self.space.dimension, len(states[0].goal) - self.context_dimension
+        inputs, effects, squares = _stacked([s.near(self.local_policies) for s in states])
+        wanted = np.array([s.goal - s.keys[s.best] for s in states])
         if self.context_dimension:
             inputs = np.concatenate((inputs, effects[:, :, outcomes:]), axis=2)
-        steps = self._solve(inputs, effects[:, :, :outcomes], goals - origin)
-        limits = squares.max(axis=1) / np.einsum("bi,bi->b", steps, steps).clip(1e-300)
-        point: FloatArray = start + steps * np.sqrt(np.minimum(limits, 1.0))[:, None]
-        return point
-
-    def _solve(self, inputs: FloatArray, effects: FloatArray, wanted: FloatArray) -> FloatArray:
-        """Minimum-norm policy steps, shape ``(states, policy dimension)``.
-
-        The map is fitted over policies and contexts; the context's share of the wanted effect
-        comes without a step.
-        """
-        dimension, outcomes = self.space.dimension, effects.shape[2]
+            effects = effects[:, :, :outcomes]
         transposed = inputs.transpose(0, 2, 1)
-        linear = transposed @ _solved(inputs @ transposed, effects, self.ridge / len(inputs[0]))
+        ridge = self.ridge / self.local_policies
+        linear = transposed @ _solved(inputs @ transposed, effects, ridge)
         target = wanted[:, :outcomes, None]
         if self.context_dimension:
             by_context = linear[:, dimension:].transpose(0, 2, 1)
             target = target - by_context @ wanted[:, outcomes:, None]
             linear = linear[:, :dimension]
-        square = linear.transpose(0, 2, 1) @ linear
-        steps: FloatArray = (linear @ _solved(square, target, 1e-9))[:, :, 0]
-        return steps
+        steps = (linear @ _solved(linear.transpose(0, 2, 1) @ linear, target, 1e-9))[:, :, 0]
+        lengths = np.einsum("bi,bi->b", steps, steps)
+        shares = np.sqrt(squares.max(axis=1) / np.maximum(lengths, 1e-300))
+        start = np.array([s.policies[s.best] for s in states])
+        point: FloatArray = start + steps * np.minimum(shares, 1.0)[:, None]
+        return point
 
     def learn(self, episode: Episode, trial: Trial, competence: float | None) -> None:
         """Add the trial to those near the goal, if it produced the goal's kind."""
@@ -217,6 +226,16 @@ class LocalSearch:
         assert episode.best is not None
         tolerance = self.model.memory.task.tolerances[episode.goal.kind]
         return -episode.best <= self.tolerance * tolerance
+
+
+def _stacked(
+    parts: Sequence[tuple[FloatArray, FloatArray, FloatArray]],
+) -> tuple[FloatArray, FloatArray, FloatArray]:
+    if len(parts) == 1:
+        first, second, third = parts[0]
+        return first[None], second[None], third[None]
+    firsts, seconds, thirds = zip(*parts, strict=True)
+    return np.array(firsts), np.array(seconds), np.array(thirds)
 
 
 def _solved(squares: FloatArray, right: FloatArray, ridge: float) -> FloatArray:

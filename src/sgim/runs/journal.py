@@ -128,7 +128,9 @@ class Journal:
             JournalError: If the event does not fit the task (it is not recorded then), or if
                 writing failed (it is kept, as `commit` says).
         """
-        writer = self._writable()
+        writer = self._writer
+        if writer is None or self._db is None:
+            writer = self._writable()
         writer.append(self._codec.encode(event))
 
     def commit(self) -> None:

@@ -210,6 +210,8 @@ class SweepProgress:
             self._bar = Progress(console=Console(file=self._stream), transient=True)
             self._task = self._bar.add_task(self._title, total=self._total)
             self._bar.start()
+        else:
+            self._write(f"{self._title}: {self._total} runs")
         return self
 
     def ended(self, run: SweptRun) -> None:
@@ -218,8 +220,11 @@ class SweepProgress:
         if self._bar is not None and self._task is not None:
             self._bar.update(self._task, advance=1)
         elif time.monotonic() - self._written > self.seconds:
-            self._written = time.monotonic()
-            print(f"{self._done} of {self._total} runs", file=self._stream, flush=True)
+            self._write(f"{self._done} of {self._total} runs have ended")
+
+    def _write(self, text: str) -> None:
+        self._written = time.monotonic()
+        print(text, file=self._stream, flush=True)
 
     def __exit__(self, *exception: object) -> None:
         if self._bar is not None:

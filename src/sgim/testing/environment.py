@@ -78,14 +78,10 @@ class _Check:
         for policy in self.policies:
             check_point(self.task.policy_space, policy, "a sampled policy")
         numbers = range(len(self.policies))
-        raw = [self._execute(i, seeded=not self.environment.deterministic) for i in numbers]
-        first = [self._packed(outcome) for outcome in raw]
-        # In another order, so that what a trial leaves behind for the next one shows.
-        for i in reversed(numbers):
-            again = self._packed(self._execute(i, seeded=True))
-            self._same(i, first[i], again, "executed once more")
-        if hasattr(self.environment, "execute_batch"):
-            self._check_batch(first)
+        raw, first = [], []
+        for i in numbers:
+            raw.append(self._execute(i, seeded=not self.environment.deterministic))
+            first.append(self._packed(raw[i]))
         for i in numbers:
             require(
                 self._packed(raw[i]) == first[i],
@@ -93,6 +89,12 @@ class _Check:
                 f"that of policy {self.policies[i]!r:.80} changed during later trials",
                 "Return a copy, not a buffer that the next trial writes to",
             )
+        # In another order, so that what a trial leaves behind for the next one shows.
+        for i in self.streams("testing/order").permutation(len(numbers)).tolist():
+            again = self._packed(self._execute(i, seeded=True))
+            self._same(i, first[i], again, "executed once more")
+        if hasattr(self.environment, "execute_batch"):
+            self._check_batch(first)
 
     def _generator(self, number: int) -> np.random.Generator:
         return self.streams("testing/trial", number)

@@ -30,23 +30,25 @@ def check_teacher(teacher: Teacher, task: Task, *, requests: int = 20, seed: int
         kind = kinds[number % len(kinds)]
         point = task.goal_spaces[kind].sample(streams("testing/goal", number))
         goals.append(None if number % 5 == 0 else Goal(kind, point))
-    answers = [_ask(teacher, task, goal, streams, i) for i, goal in enumerate(goals)]
-    first = [_packed(task, answer) for answer in answers]
-    # In another order, so that what one request leaves behind for the next one shows.
-    for number in reversed(range(requests)):
-        again = _packed(task, _ask(teacher, task, goals[number], streams, number))
-        require(
-            first[number] == again,
-            "the same goal and the same generator get the same answer",
-            f"request {number}, for {goals[number]!r:.80}, was answered otherwise the second time",
-            "Draw random numbers from the request's rng only, and keep no state between requests",
-        )
+    answers, first = [], []
+    for number, goal in enumerate(goals):
+        answers.append(_ask(teacher, task, goal, streams, number))
+        first.append(_packed(task, answers[number]))
     for number, answer in enumerate(answers):
         require(
             _packed(task, answer) == first[number],
             "a demonstration stays as it was when it was given",
             f"the answer to request {number} changed during later requests",
             "Give a copy, not an array that is written to again",
+        )
+    # In another order, so that what one request leaves behind for the next one shows.
+    for number in streams("testing/order").permutation(requests).tolist():
+        again = _packed(task, _ask(teacher, task, goals[number], streams, number))
+        require(
+            first[number] == again,
+            "the same goal and the same generator get the same answer",
+            f"request {number}, for {goals[number]!r:.80}, was answered otherwise the second time",
+            "Draw random numbers from the request's rng only, and keep no state between requests",
         )
 
 

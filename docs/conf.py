@@ -1,0 +1,26 @@
+"""How the documentation is built: `sphinx-build -W docs docs/_build`."""
+
+import sgim
+
+project = "sgim"
+author = "The sgim authors"
+copyright = "The sgim authors, Apache License 2.0"  # noqa: A001 - Sphinx names it so
+version = release = sgim.__version__
+
+extensions = ["sphinx.ext.autodoc", "sphinx.ext.napoleon", "myst_parser"]
+exclude_patterns = ["_build"]
+myst_enable_extensions = ["colon_fence", "deflist"]
+myst_heading_anchors = 3
+
+# In docstrings, `Name` is a reference where there is something of that name, else plain code.
+default_role = "py:obj"
+napoleon_numpy_docstring = False
+napoleon_use_ivar = True
+autodoc_member_order = "bysource"
+autodoc_type_aliases = {
+    name: name
+    for name in ("FloatArray", "Generators", "Outcome", "Event", "RecordedEvent", "ArrayLike")
+}
+
+html_theme = "furo"
+html_title = f"sgim {release}"

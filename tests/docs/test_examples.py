@@ -1,0 +1,170 @@
+"""What the documentation shows is executed, and what its tables say is true."""
+
+import re
+import signal
+import subprocess
+import sys
+import time
+from dataclasses import fields
+from pathlib import Path
+
+import pytest
+
+import sgim
+from sgim.algorithms import ALGORITHMS
+from sgim.configurations import CONFIGURATIONS, Configuration
+from sgim.errors import JournalError
+from sgim.events import Answered, Ended, Told
+from sgim.runs.rows import RecordedPlan
+
+ROOT = Path(__file__).parent.parent.parent
+EXAMPLES = ROOT / "docs" / "examples"
+
+
+def start(*arguments: str, cwd: Path) -> subprocess.Popen[str]:
+    command = [sys.executable, "-W", "error", *arguments]
+    pipe = subprocess.PIPE
+    return subprocess.Popen(command, cwd=cwd, stdout=pipe, stderr=pipe, text=True)
+
+
+def output(*arguments: str, cwd: Path) -> str:
+    """What Python prints, after ending well."""
+    process = start(*arguments, cwd=cwd)
+    out, err = process.communicate(timeout=100)
+    assert process.returncode == 0, err
+    return out
+
+
+def test_the_lines_of_the_readme_run(tmp_path: Path) -> None:
+    blocks = re.findall(r"```python\n(.*?)```", (ROOT / "README.md").read_text("utf-8"), re.DOTALL)
+    output("-c", "\n".join(blocks), cwd=tmp_path)
+    assert (tmp_path / "runs" / "a.sgim").is_file()
+
+
+def test_a_world_a_teacher_and_a_map_of_ones_own_keep_their_promises_and_learn(
+    tmp_path: Path,
+) -> None:
+    lines = output(str(EXAMPLES / "own_world.py"), cwd=tmp_path).splitlines()
+    first, *_, last = [float(line.split()[-1]) for line in lines if "mean error" in line]
+    assert first == 1.0
+    assert last < 0.05
+
+
+# A real arm, killed and resumed.
+
+ARM = str(EXAMPLES / "real_arm.py")
+TRIALS = 60
+
+
+class Recorded:
+    """What a journal of the arm says, also while it is being written."""
+
+    def __init__(self, path: Path) -> None:
+        self.plans: dict[int, RecordedPlan] = {}
+        self.told: dict[int, Told] = {}
+        self.ended: dict[int, Ended] = {}
+        self.answered: dict[int, Answered] = {}
+        with sgim.Journal.open(path, append=False) as journal:
+            for event in journal.events():
+                match event:
+                    case RecordedPlan(number):
+                        assert number not in self.plans
+                        self.plans[number] = event
+                    case Told(number):
+                        assert number not in self.told
+                        self.told[number] = event
+                    case Ended(number):
+                        assert number not in self.ended
+                        self.ended[number] = event
+                    case Answered(number):
+                        self.answered[number] = event
+
+    def started_and_never_told(self) -> set[int]:
+        resolved = {*self.told, *self.ended, *self.answered}
+        return {n for n, plan in self.plans.items() if plan.teacher is None} - resolved
+
+    def how(self, ending: str) -> set[int]:
+        return {n for n, event in self.ended.items() if event.how == ending}
+
+
+def killed_in_a_trial(path: Path) -> Recorded:
+    """Let the arm work, kill it while a movement goes on, and read what it left."""
+    process = start(ARM, str(path), str(TRIALS), "0.1", cwd=path.parent)
+    for _ in range(3000):
+        time.sleep(0.01)
+        assert process.poll() is None, process.communicate()[1]
+        try:
+            seen = Recorded(path)
+        except JournalError:  # not made yet
+            continue
+        if len(seen.told) >= 10 and seen.started_and_never_told():
+            break
+    process.send_signal(signal.SIGKILL)
+    process.communicate(timeout=30)
+    assert process.returncode == -signal.SIGKILL
+    return Recorded(path)
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="there is no SIGKILL")
+def test_a_real_arm_killed_in_a_trial_goes_on_with_nothing_told_lost_and_nothing_repeated(
+    tmp_path: Path,
+) -> None:
+    path = tmp_path / "arm.sgim"
+    before = killed_in_a_trial(path)
+    assert 10 <= len(before.told) < TRIALS
+
+    shown = output(ARM, str(path), str(TRIALS), cwd=tmp_path)
+    after = Recorded(path)
+    done = len(before.told) + len(before.how("failed"))
+    assert shown.startswith(f"{done} trials so far\nhit with ")
+    assert len(after.told) + len(after.how("failed")) == TRIALS
+    assert before.told.keys() <= after.told.keys()
+    assert after.how("lost") == before.started_and_never_told()
+    assert not after.started_and_never_told()
+
+
+def test_a_real_arm_meets_every_ending_of_a_trial_and_says_what_trials_cost(
+    tmp_path: Path,
+) -> None:
+    path = tmp_path / "arm.sgim"
+    output(ARM, str(path), "120", cwd=tmp_path)
+    recorded = Recorded(path)
+    assert recorded.how("refused")
+    assert recorded.how("failed")
+    assert recorded.how("expired")
+    assert all(event.seconds and event.seconds > 0 for event in recorded.told.values())
+    shown = [event.demonstration for event in recorded.answered.values()]
+    assert any(d is not None and d.trajectory is not None for d in shown)
+    assert all(d is None or d.policy is not None for d in shown)
+
+
+# What tables say.
+
+
+def table(page: str, first_cell: str) -> dict[str, list[str]]:
+    """The rows of the page's table whose head begins with this cell, by their first cell."""
+    text = (ROOT / page).read_text("utf-8")
+    lines = iter(text[text.index(f"\n| {first_cell} |") + 1 :].splitlines()[2:])
+    rows = {}
+    for line in lines:
+        if not line.startswith("|"):
+            break
+        cells = [cell.strip() for cell in line.strip("|").split("|")]
+        rows[cells[0].strip("`")] = [cell.strip("`") for cell in cells[1:]]
+    return rows
+
+
+@pytest.mark.parametrize("name", list(CONFIGURATIONS))
+def test_the_page_of_configurations_has_every_constant_as_it_is(name: str) -> None:
+    rows = table("docs/configurations.md", "constant")
+    names = [field.name for field in fields(Configuration)]
+    assert list(rows) == names[1:]
+    column = list(CONFIGURATIONS).index(name)
+    configuration = CONFIGURATIONS[name]
+    shown = {constant: cells[column] for constant, cells in rows.items()}
+    assert shown == {constant: str(getattr(configuration, constant)) for constant in names[1:]}
+
+
+@pytest.mark.parametrize("page", ["README.md", "docs/algorithms.md"])
+def test_tables_of_algorithms_have_every_algorithm(page: str) -> None:
+    assert list(table(page, "name")) == list(ALGORITHMS)

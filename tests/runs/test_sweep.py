@@ -1,0 +1,142 @@
+"""Many runs side by side."""
+
+from __future__ import annotations
+
+import signal
+import sqlite3
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from sgim.environments.throwing import ThrowingArm
+from sgim.errors import UnknownNameError
+from sgim.experiments import experiment
+from sgim.runs import Interrupted
+from sgim.runs.summary import read_run
+from sgim.runs.sweep import SweptRun, sweep
+
+THROWING = experiment("throwing")
+
+
+def rows(path: Path) -> list[tuple[object, ...]]:
+    with sqlite3.connect(path) as db:
+        found = db.execute("SELECT * FROM events WHERE event != 'session' ORDER BY seq").fetchall()
+    db.close()
+    return [row[1:] for row in found]
+
+
+def test_runs_in_other_processes_are_those_of_this_one(tmp_path: Path) -> None:
+    told: list[SweptRun] = []
+    results = sweep(
+        THROWING,
+        ["sgim-acts", "mimicry:T1"],
+        [0, 4],
+        movements=150,
+        evaluate_every=50,
+        jobs=2,
+        out=tmp_path / "side",
+        on_end=told.append,
+    )
+    assert [(r.learner, r.seed) for r in results] == [
+        *(("sgim-acts", 0), ("sgim-acts", 4)),
+        *(("mimicry:T1", 0), ("mimicry:T1", 4)),
+    ]
+    assert {r.status for r in results} == {"finished"}
+    assert {r.path for r in told} == {r.path for r in results}
+    for result in results:
+        alone = THROWING.journal_path(result.learner, result.seed, folder=tmp_path / "alone")
+        with THROWING.start(result.learner, alone, seed=result.seed, evaluate_every=50) as run:
+            run.go(150)
+        assert rows(alone) == rows(result.path)
+
+
+def test_what_is_finished_is_not_repeated_and_what_was_stopped_goes_on(tmp_path: Path) -> None:
+    def swept(movements: int) -> list[str]:
+        results = sweep(THROWING, ["random"], [0, 1], movements=movements, out=tmp_path)
+        assert all(read_run(r.path).movements == 100 for r in results)
+        return [r.status for r in results]
+
+    with THROWING.start("random", THROWING.journal_path("random", 0, folder=tmp_path)) as run:
+        run.go(30)
+    assert swept(100) == ["finished", "finished"]
+    before = [path.read_bytes() for path in sorted(tmp_path.iterdir())]
+    assert swept(100) == ["known", "known"]
+    assert swept(60) == ["known", "known"]
+    assert [path.read_bytes() for path in sorted(tmp_path.iterdir())] == before
+
+
+def test_a_journal_of_another_run_fails_and_is_kept(tmp_path: Path) -> None:
+    path = THROWING.journal_path("random", 0, folder=tmp_path)
+    with THROWING.start("random", path, batch=7) as run:
+        run.go(20)
+    before = path.read_bytes()
+    (result,) = sweep(THROWING, ["random"], [0], movements=20, out=tmp_path)
+    assert result.status == "failed"
+    assert "its batch is 7, but here it is 1" in result.error
+    assert path.read_bytes() == before
+
+
+class Broken(ThrowingArm):
+    """Fails on some policies, which only one seed's runs try."""
+
+    def execute(self, policy: Any, context: Any = None, rng: Any = None) -> Any:
+        raise OSError("motor 3 is off")
+
+
+@pytest.mark.filterwarnings("ignore:the world failed")
+def test_a_run_that_fails_does_not_stop_the_others(tmp_path: Path) -> None:
+    worlds = iter([Broken])
+    fragile = replace(THROWING, environment=lambda: next(worlds, ThrowingArm)())
+    # The first world is made to check the learner, so that the failing one is made on purpose.
+    next(worlds)
+    assert [r.status for r in sweep(fragile, ["random"], [0], movements=20, out=tmp_path)] == [
+        "finished"
+    ]
+    broken = replace(THROWING, environment=Broken)
+    results = sweep(broken, ["random"], [0, 1], movements=20, out=tmp_path)
+    assert [r.status for r in results] == ["known", "failed"]
+    assert "RunError" in results[1].error
+    assert "motor 3 is off" in results[1].error
+
+
+def test_a_learner_that_is_unknown_is_refused_before_anything_runs(tmp_path: Path) -> None:
+    with pytest.raises(UnknownNameError, match="sagg-riac"):
+        sweep(THROWING, ["random", "sag-riac"], [0], movements=20, out=tmp_path)
+    assert not list(tmp_path.iterdir())
+
+
+def test_ctrl_c_stops_the_sweep_and_the_same_sweep_goes_on(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    execute, count = ThrowingArm.execute, 0
+
+    def executed(self: ThrowingArm, *arguments: Any) -> Any:
+        nonlocal count
+        count += 1
+        if count == 70:
+            signal.raise_signal(signal.SIGINT)
+        return execute(self, *arguments)
+
+    monkeypatch.setattr(ThrowingArm, "execute", executed)
+    with pytest.raises(Interrupted, match="1 of 3 runs are finished"):
+        sweep(THROWING, ["random"], [0, 1, 2], movements=50, out=tmp_path)
+    results = sweep(THROWING, ["random"], [0, 1, 2], movements=50, out=tmp_path)
+    assert [r.status for r in results] == ["known", "finished", "finished"]
+
+
+def test_workers_use_one_thread_for_linear_algebra() -> None:
+    from joblib import Parallel, delayed, parallel_config
+
+    with parallel_config(backend="loky", inner_max_num_threads=1):
+        found = Parallel(n_jobs=2)(delayed(_threads)() for _ in range(2))
+    assert found == ["1", "1"]
+
+
+def _threads() -> str:
+    import os
+
+    assert np.__version__
+    return os.environ.get("OPENBLAS_NUM_THREADS", "unset")

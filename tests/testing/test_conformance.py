@@ -1,0 +1,147 @@
+"""Every part that comes with the library passes its conformance suite."""
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import numpy as np
+import pytest
+
+from sgim.environments import ARMS, Environment, PlanarArm, ThrowingArm, throwing_teachers
+from sgim.memory import Memory
+from sgim.outcome.interest import UniformGoals
+from sgim.outcome.progress import CompetenceChange, InterestMeasure, MeanProgress
+from sgim.outcome.region_tree import RegionTree
+from sgim.outcome.table import InterestTable
+from sgim.policy.explorer import Explorer
+from sgim.policy.local_search import LocalSearch
+from sgim.policy.model import NearestModel
+from sgim.policy.nelder_mead import NelderMeadSearch
+from sgim.policy.simple import Mimicry, NoisyNearest, RandomPolicies
+from sgim.spaces import Box, Choices, Space
+from sgim.streams import Streams
+from sgim.task import Task
+from sgim.teachers import ScriptedTeacher
+from sgim.testing import (
+    check_environment,
+    check_explorer,
+    check_interest_map,
+    check_model,
+    check_space,
+    check_teacher,
+)
+
+THROWING = ThrowingArm()
+ENVIRONMENTS: dict[str, Environment] = {
+    "throwing arm": THROWING,
+    "arm with noise": PlanarArm(7),
+    "arm without noise": PlanarArm(7, noise=0),
+    "arm with a varying start": PlanarArm(3, vary_start=True),
+    "arm with a varying start, without noise": PlanarArm(2, noise=0, vary_start=True),
+    **ARMS,
+}
+LABELS = Choices(["red", "green", "blue"])
+PLACE = Box([0, 0], [1, 3])
+TASKS = {
+    "throwing": THROWING.task,
+    "hand": PlanarArm(7).task,
+    "hand with a varying start": PlanarArm(3, vary_start=True).task,
+    "one joint": PlanarArm(1).task,
+    "a hundred joints": ARMS["100-wide"].task,
+    "labels among outcomes": Task(Box(0, 1, names="abcde"), {"word": LABELS, "place": PLACE}),
+    "labels as contexts": Task(Box(-0.1, 0.2), {"place": PLACE}, context_space=LABELS),
+}
+MODES = {"alone": 1.0, "mimic": 2.0, "emulate": 3.0}
+VECTOR_TASKS = {name: task for name, task in TASKS.items() if "labels" not in name}
+NAMED = pytest.mark.parametrize("task", TASKS.values(), ids=TASKS.keys())
+
+
+@pytest.mark.parametrize("environment", ENVIRONMENTS.values(), ids=ENVIRONMENTS.keys())
+def test_every_environment_passes(environment: Environment) -> None:
+    check_environment(environment)
+    check_environment(environment, trials=3, seed=7)
+
+
+@pytest.mark.parametrize("name", throwing_teachers())
+def test_every_throwing_teacher_passes(name: str) -> None:
+    check_teacher(throwing_teachers()[name], THROWING.task)
+
+
+def test_a_teacher_who_always_declines_passes() -> None:
+    check_teacher(ScriptedTeacher(lambda goal: None), THROWING.task)
+
+
+@pytest.mark.parametrize("space", [LABELS, PLACE, Box(-0.1, 0.2), THROWING.task.policy_space])
+def test_every_space_passes(space: Space) -> None:
+    check_space(space)
+
+
+@pytest.mark.parametrize("task", VECTOR_TASKS.values(), ids=VECTOR_TASKS.keys())
+@pytest.mark.parametrize("credit", ["chosen", "pursued"])
+@pytest.mark.parametrize("measure", [MeanProgress, CompetenceChange])
+def test_every_region_tree_passes(task: Task, credit: Any, measure: Any) -> None:
+    made: InterestMeasure = measure(task.sizes) if measure is MeanProgress else measure()
+
+    def make() -> RegionTree:
+        return RegionTree(
+            task.goal_spaces,
+            MODES,
+            made,
+            Streams(0),
+            context_space=task.context_space,
+            staleness=0.02 if credit == "chosen" else 0.0,
+            credit=credit,
+        )
+
+    check_interest_map(make, task.goal_spaces, list(MODES), context_space=task.context_space)
+
+
+@NAMED
+def test_uniform_goals_pass(task: Task) -> None:
+    spaces = task.goal_spaces
+    check_interest_map(
+        lambda: UniformGoals(spaces), spaces, list(MODES), context_space=task.context_space
+    )
+
+
+def test_an_interest_table_passes() -> None:
+    check_interest_map(
+        lambda: InterestTable("word", LABELS, MODES, CompetenceChange()),
+        {"word": LABELS},
+        list(MODES),
+    )
+
+
+@NAMED
+def test_the_nearest_model_passes(task: Task) -> None:
+    check_model(lambda: NearestModel(Memory(task)), task)
+
+
+EXPLORERS: Mapping[str, Callable[[NearestModel], Explorer]] = {
+    "Nelder-Mead": NelderMeadSearch,
+    "local search": LocalSearch,
+    "local search, large steps": lambda model: LocalSearch(model, differential_weight=3.0),
+    "noise around the nearest": NoisyNearest,
+    "noise from the first trial on": lambda model: NoisyNearest(model, bootstrap=0),
+    "mimicry": lambda model: Mimicry(model.memory.task.policy_space, 0.3),
+    "exact mimicry first": lambda model: Mimicry(
+        model.memory.task.policy_space, 0.3, scaled=True, exact_first=True
+    ),
+    "random policies": lambda model: RandomPolicies(model.memory.task.policy_space),
+}
+
+
+@NAMED
+@pytest.mark.parametrize("make", EXPLORERS.values(), ids=EXPLORERS.keys())
+def test_every_explorer_passes(task: Task, make: Callable[[NearestModel], Explorer]) -> None:
+    check_explorer(make, task)
+    check_explorer(make, task, seed=1)
+
+
+@pytest.mark.parametrize("dimension", range(1, 20))
+def test_the_rounding_of_local_search_does_not_depend_on_its_company(dimension: int) -> None:
+    rng = np.random.default_rng(dimension)
+    outcomes = Box(np.zeros(1 + dimension % 4), 1)
+    policies = Box(-1 - rng.random(dimension), 1)
+    task = Task(policies, {"place": outcomes, "throw": Box([0, 0, 0], 1)})
+    check_explorer(LocalSearch, task, seed=dimension)
+    check_explorer(NelderMeadSearch, task, seed=dimension)
