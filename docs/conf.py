@@ -1,5 +1,8 @@
 """How the documentation is built: `sphinx-build -W docs docs/_build`."""
 
+import re
+from typing import Any
+
 import sgim
 
 project = "sgim"
@@ -24,3 +27,12 @@ autodoc_type_aliases = {
 
 html_theme = "furo"
 html_title = f"sgim {release}"
+
+
+def _keep_bars(app: Any, what: str, name: str, thing: Any, options: Any, lines: list[str]) -> None:
+    """Keep sizes such as |A| in docstrings from being taken for substitutions."""
+    lines[:] = [re.sub(r"\|(\w+)\|", r"\\|\1\\|", line) for line in lines]
+
+
+def setup(app: Any) -> None:
+    app.connect("autodoc-process-docstring", _keep_bars)

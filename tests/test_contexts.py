@@ -9,9 +9,9 @@ import pytest
 from sgim import algorithms
 from sgim.environments import PlanarArm
 from sgim.errors import SpaceError
-from sgim.events import Event, Opened
+from sgim.events import Opened
 from sgim.learner import Learner
-from sgim.outcome.region_tree import RegionTree
+from sgim.outcome.region_tree import Region, RegionTree
 from sgim.policy.model import NearestModel
 from sgim.strategy.strategy import JointChoice
 from sgim.streams import Streams
@@ -125,7 +125,7 @@ def test_regions_divide_contexts_as_well_as_goals() -> None:
     assert all(len(r.low) == 3 for r in tree.leaves)
 
 
-def _inner(tree: RegionTree) -> list[Any]:
+def _inner(tree: RegionTree) -> list[Region]:
     found, waiting = [], list(tree.roots.values())
     while waiting:
         region = waiting.pop()
@@ -135,28 +135,32 @@ def _inner(tree: RegionTree) -> list[Any]:
     return found
 
 
-def test_goals_are_chosen_from_regions_that_contain_the_present_context() -> None:
-    learner, opened = algorithms.make("sagg-riac", ARM.task, config="thesis", seed=0), []
-    chosen: list[tuple[np.ndarray, Any]] = []
-    tree = tree_of(learner)
-    pick = tree._pick
-
-    def noted(share: float, modes: Any, context: Any) -> Any:
-        region, mode = pick(share, modes, context)
-        chosen.append((context, region))
-        return region, mode
-
-    def record(event: Event) -> None:
-        if isinstance(event, Opened):
-            opened.append(event)
-
-    tree._pick = noted  # type: ignore[method-assign]
-    learner.record = record
+def test_goals_are_chosen_from_interesting_regions_that_contain_the_present_context() -> None:
+    learner, opened = (
+        algorithms.make("sagg-riac", ARM.task, config="thesis", seed=0),
+        list[Opened](),
+    )
+    learner.record = lambda event: opened.append(event) if isinstance(event, Opened) else None
     live(learner, 1500)
-    assert len(chosen) > 30
+    assert all(event.context is not None for event in opened)
     assert ARM.task.context_space is not None
-    for context, region in chosen:
+    tree = tree_of(learner)
+    tree.probabilities = (0.0, 0.5, 0.5)
+    fewer = 0
+    for number in range(300):
+        context = base(number)
         place = ARM.task.context_space.encode(context)[0]
-        assert region.low[2] <= place <= region.high[2]
-    assert all(event.context is not None and event.goal is not None for event in opened)
-    assert any(region.low[2] > 0 or region.high[2] < 1 for _, region in chosen)
+        _, goal = learner.strategy.choose(STREAMS("choice", number), (), context)
+        assert goal is not None
+        around = [r for r in tree.leaves if r.low[2] <= place <= r.high[2]]
+        interests = tree.interests()[[r.leaf for r in around], 0]
+        interesting = [r for r, i in zip(around, interests, strict=True) if i > interests.min()]
+        point = ARM.goal_box.encode(goal.point)
+        assert any(_holds(region, point) for region in interesting or around)
+        fewer += len(around) < len(tree.leaves)
+    assert fewer > 100
+
+
+def _holds(region: Region, point: np.ndarray) -> bool:
+    low, high = region.low[:2] - 1e-9, region.high[:2] + 1e-9
+    return bool((low <= point).all() and (point <= high).all())

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from sgim.cli.sweep import parse_seeds
+from sgim.cli.commands.sweep import parse_seeds
 from sgim.runs.summary import read_run
 
 SWEEP = ["sweep", "throwing", "--learners", "random,mimicry:T2", "--movements", "60"]

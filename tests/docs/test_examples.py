@@ -1,11 +1,14 @@
 """What the documentation shows is executed, and what its tables say is true."""
 
+import os
 import re
+import shlex
 import signal
 import subprocess
 import sys
 import time
 from dataclasses import fields
+from inspect import signature
 from pathlib import Path
 
 import pytest
@@ -15,6 +18,11 @@ from sgim.algorithms import ALGORITHMS
 from sgim.configurations import CONFIGURATIONS, Configuration
 from sgim.errors import JournalError
 from sgim.events import Answered, Ended, Told
+from sgim.outcome.region_tree import RegionTree
+from sgim.policy.local_search import LocalSearch
+from sgim.policy.model import NearestModel
+from sgim.policy.nelder_mead import NelderMeadSearch
+from sgim.policy.simple import NoisyNearest
 from sgim.runs.rows import RecordedPlan
 
 ROOT = Path(__file__).parent.parent.parent
@@ -35,9 +43,13 @@ def output(*arguments: str, cwd: Path) -> str:
     return out
 
 
+def python_blocks(page: str) -> list[str]:
+    return re.findall(r"```python\n(.*?)```", (ROOT / page).read_text("utf-8"), re.DOTALL)
+
+
 def test_the_lines_of_the_readme_run(tmp_path: Path) -> None:
-    blocks = re.findall(r"```python\n(.*?)```", (ROOT / "README.md").read_text("utf-8"), re.DOTALL)
-    output("-c", "\n".join(blocks), cwd=tmp_path)
+    (block,) = python_blocks("README.md")
+    output("-c", block, cwd=tmp_path)
     assert (tmp_path / "runs" / "a.sgim").is_file()
 
 
@@ -138,6 +150,57 @@ def test_a_real_arm_meets_every_ending_of_a_trial_and_says_what_trials_cost(
     assert all(d is None or d.policy is not None for d in shown)
 
 
+# The command line, as shown.
+
+NUMBER = re.compile(r"-?[0-9]+(?:\.[0-9]+)?(?:e[-+]?[0-9]+)?%?|–|\s+")
+
+
+def shape(text: str) -> str:
+    """A text without its numbers and its spacing, which differ between processors."""
+    return NUMBER.sub("", text)
+
+
+def shown_by(commands: list[str], cwd: Path) -> str:
+    """The commands, each followed by what it prints."""
+    lines = []
+    for command in commands:
+        program, *arguments = shlex.split(command.removeprefix("$ "))
+        assert program == "sgim"
+        printed = output("-m", "sgim.cli", *arguments, cwd=cwd)
+        lines += [command, *printed.splitlines()]
+    return "\n".join(lines) + "\n"
+
+
+def test_the_first_run_prints_what_its_page_shows(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Numbers may differ. To write the page anew: SGIM_UPDATE_DOCS=1 pytest tests/docs."""
+    monkeypatch.setenv("COLUMNS", "100")
+    page = ROOT / "docs" / "first-run.md"
+    before = page.read_text("utf-8")
+
+    def again(block: re.Match[str]) -> str:
+        commands = [line for line in block[1].splitlines() if line.startswith("$ ")]
+        return f"```console\n{shown_by(commands, tmp_path)}```"
+
+    after = re.sub(r"```console\n(.*?)```", again, before, flags=re.DOTALL)
+    if os.environ.get("SGIM_UPDATE_DOCS"):
+        page.write_text(after, "utf-8")
+    else:
+        assert shape(after) == shape(before)
+
+
+def test_the_lines_of_the_page_on_journals_read_one(tmp_path: Path) -> None:
+    output("-m", "sgim.cli", "run", "throwing", "--movements", "400", cwd=tmp_path)
+    for block in python_blocks("docs/journal.md"):
+        assert output("-c", block, cwd=tmp_path)
+
+
+def test_the_lines_of_the_page_on_configurations_run(tmp_path: Path) -> None:
+    (block,) = python_blocks("docs/configurations.md")
+    output("-c", block, cwd=tmp_path)
+
+
 # What tables say.
 
 
@@ -163,6 +226,18 @@ def test_the_page_of_configurations_has_every_constant_as_it_is(name: str) -> No
     configuration = CONFIGURATIONS[name]
     shown = {constant: cells[column] for constant, cells in rows.items()}
     assert shown == {constant: str(getattr(configuration, constant)) for constant in names[1:]}
+
+
+PARTS = (NearestModel, NelderMeadSearch, LocalSearch, NoisyNearest, RegionTree)
+
+
+def test_the_page_of_configurations_has_the_constants_of_the_parts() -> None:
+    parts = {part.__name__: part for part in PARTS}
+    for name, (shown,) in table("docs/configurations.md", "parameter").items():
+        part, constant = name.split(".")
+        default = signature(parts[part]).parameters.get(constant)
+        value = getattr(parts[part], constant) if default is None else default.default
+        assert shown == str(value), name
 
 
 @pytest.mark.parametrize("page", ["README.md", "docs/algorithms.md"])

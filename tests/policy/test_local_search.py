@@ -6,7 +6,6 @@ from tests.helpers import PLANE, episode_for, plane, random_policies, remember, 
 
 from sgim.environments import PlanarArm
 from sgim.memory import Memory
-from sgim.policy.explorer import Episode
 from sgim.policy.local_search import LocalSearch
 from sgim.policy.model import NearestModel
 from sgim.records import Goal, Trial
@@ -20,29 +19,17 @@ def goal_at(policy: np.ndarray) -> Goal:
     return Goal("place", plane(policy)["place"])
 
 
-class NeverRandom(np.random.Generator):
-    """A generator whose first number of several is 1: no random policy is ever due."""
-
-    def random(self, size: int) -> np.ndarray:  # type: ignore[override]
-        drawn = super().random(size)
-        drawn[0] = 1.0
-        return drawn
-
-
-def local_episode(model: NearestModel, goal: Goal, context: np.ndarray | None = None) -> Episode:
-    """An episode that only ever makes local steps."""
-    episode = episode_for(model, goal, context)
-    episode.rng = NeverRandom(np.random.PCG64(0))
-    return episode
-
-
-def first_proposal(
-    model: NearestModel, goal: Goal, context: np.ndarray | None = None
-) -> np.ndarray:
-    search, episode = LocalSearch(model), local_episode(model, goal, context)
+def proposals(
+    search: LocalSearch,
+    goal: Goal,
+    context: np.ndarray | None = None,
+    count: int = 8,
+    seed: int = 0,
+) -> list[np.ndarray]:
+    """What is proposed again and again while nothing is told: steps of every sort."""
+    episode = episode_for(search.model, goal, context, seed)
     search.begin(episode)
-    policy: np.ndarray = search.propose([episode])[0]
-    return policy
+    return [search.propose([episode])[0] for _ in range(count)]
 
 
 @pytest.mark.parametrize("seed", range(5))
@@ -50,11 +37,12 @@ def test_in_a_linear_world_the_linear_step_lands_on_the_goal(seed: int) -> None:
     model = remember(PLANE, plane, random_policies(PLANE, 20, seed))
     goal = goal_at(np.array([0.4, 0.6]))
     before = -model.competence(goal, None)
-    landed = plane(first_proposal(model, goal))["place"]
-    assert np.linalg.norm(landed - goal.point) / 10 < 0.05 * before
+    landed = [plane(policy)["place"] for policy in proposals(LocalSearch(model), goal)]
+    gaps = [np.linalg.norm(place - goal.point) / 10 for place in landed]
+    assert sorted(gaps)[1] < 0.05 * before  # More than one of the steps does.
 
 
-def test_of_the_steps_that_lead_to_the_goal_the_shortest_is_taken() -> None:
+def test_joints_that_act_alike_share_the_step() -> None:
     task = Task(Box(0, 1, names=["a", "b", "c"]), {"sum": Box(0, 3)})
 
     def world(policy: np.ndarray) -> dict[str, np.ndarray]:
@@ -62,18 +50,24 @@ def test_of_the_steps_that_lead_to_the_goal_the_shortest_is_taken() -> None:
 
     start = np.array([0.5, 0.4, 0.6])
     model = remember(task, world, [start, *(start - 0.1 * np.eye(3))])
-    step = first_proposal(model, Goal("sum", np.array([1.56]))) - start
-    np.testing.assert_allclose(step, [0.02, 0.02, 0.02], atol=1e-3)
+    drawn = proposals(LocalSearch(model), Goal("sum", np.array([1.56])))
+    assert any(np.allclose(policy - start, [0.02, 0.02, 0.02], atol=1e-3) for policy in drawn)
 
 
-def test_the_linear_step_is_no_longer_than_the_neighbourhood_is_wide() -> None:
+def test_local_steps_are_no_longer_than_the_neighbourhood_is_wide() -> None:
     around = CENTRE + 0.03 * np.array([[0, 0], [1, 0], [0, 1], [-1, 0]])
     model = remember(PLANE, plane, around)
-    policy = first_proposal(model, Goal("place", np.array([10.0, 10.0])))
-    assert min(np.linalg.norm(policy - b) for b in around) <= 0.06 + 1e-9
+    goal = Goal("place", plane(CENTRE)["place"] + [0.0, 2.5])
+    share = 1 + model.competence(goal, None)
+    assert share == pytest.approx(0.75, abs=0.05)  # Of local steps; the others are random.
+    drawn = np.array(
+        [p for seed in range(100) for p in proposals(LocalSearch(model), goal, seed=seed)]
+    )
+    gaps = np.linalg.norm(drawn[:, None] - around, axis=2).min(axis=1)
+    assert np.mean(gaps <= 0.06 + 1e-9) > share - 0.05
 
 
-def test_the_share_of_the_wanted_effect_that_a_context_brings_needs_no_step() -> None:
+def test_a_linear_step_makes_up_for_the_present_context() -> None:
     task = Task(Box(0, 1), {"x": Box(0, 2)}, context_space=Box(0, 1))
     model = NearestModel(Memory(task))
     for policy in np.linspace(0.1, 0.9, 9):
@@ -81,21 +75,19 @@ def test_the_share_of_the_wanted_effect_that_a_context_brings_needs_no_step() ->
             trial = Trial(np.array([policy]), {"x": np.array([policy + wind])}, np.array([wind]))
             model.update(trial)
     # In a wind of 0.5, a policy of 0.3 produces 0.8.
-    policy = first_proposal(model, Goal("x", np.array([0.8])), np.array([0.5]))
-    assert policy[0] == pytest.approx(0.3, abs=0.03)
+    drawn = proposals(LocalSearch(model), Goal("x", np.array([0.8])), np.array([0.5]))
+    assert min(abs(policy[0] - 0.3) for policy in drawn) < 0.005
 
 
-def test_linear_and_differential_steps_alternate() -> None:
-    remembered = random_policies(PLANE, 6)
-    model = remember(PLANE, plane, remembered)
-    search, episode = LocalSearch(model), local_episode(model, goal_at(CENTRE))
-    search.begin(episode)
-    linear, differential, again, _ = [search.propose([episode])[0] for _ in range(4)]
-    assert (linear == again).all()
-    best = model.best_policy(goal_at(CENTRE), None)
-    steps = [(one - other) for one in remembered for other in remembered]
-    along = [s for s in steps if s.any() and _is_share(differential - best, s)]
-    assert along
+def test_differential_steps_add_a_share_of_the_difference_of_two_policies_to_the_best() -> None:
+    remembered = [0.4 + 0.2 * policy for policy in random_policies(PLANE, 6)]  # Far from bounds.
+    model, goal = remember(PLANE, plane, remembered), goal_at(remembered[2] + 0.001)
+    differences = [one - other for one in remembered for other in remembered if one is not other]
+    drawn = proposals(LocalSearch(model, least_global=0.0), goal, count=20)
+    steps = [policy - remembered[2] for policy in drawn]
+    differential = [s for s in steps if any(_is_share(s, d) for d in differences)]
+    assert len(differential) >= 6
+    assert any(step.any() for step in differential)
 
 
 def _is_share(step: np.ndarray, difference: np.ndarray) -> bool:
@@ -165,7 +157,7 @@ def test_trials_of_other_kinds_and_refusals_teach_the_search_nothing() -> None:
     model = remember(PLANE, plane, random_policies(PLANE, 8))
     goal = goal_at(CENTRE)
     first, second = LocalSearch(model), LocalSearch(model)
-    episodes = [local_episode(model, goal), local_episode(model, goal)]
+    episodes = [episode_for(model, goal), episode_for(model, goal)]
     first.begin(episodes[0])
     second.begin(episodes[1])
     for _ in range(6):
@@ -198,12 +190,12 @@ def test_trials_of_the_episode_guide_its_next_steps() -> None:
 
 def test_an_episode_may_go_on_for_longer_than_its_usual_budget() -> None:
     model = remember(PLANE, plane, random_policies(PLANE, 30))
-    search, episode = LocalSearch(model, budget=3), local_episode(model, goal_at(CENTRE))
+    search, episode = LocalSearch(model, budget=3), episode_for(model, goal_at(CENTRE))
     search.begin(episode)
     for _ in range(40):
         (policy,) = search.propose([episode])
         tell(model, search, episode, Trial(PLANE.check_policy(policy), plane(policy)))
-    assert episode.best == pytest.approx(0.0, abs=1e-6)
+    assert episode.best == pytest.approx(0.0, abs=1e-4)
 
 
 def test_policies_must_be_vectors() -> None:

@@ -1,4 +1,4 @@
-"""The command line: ``sgim COMMAND …``, one file a command.
+"""The command line: ``sgim COMMAND …``, one file a command in `commands`.
 
 Exit codes: 0, all is well; 1, a run or a journal failed; 2, the command cannot be understood or
 names something unknown; 130, interrupted.
@@ -58,9 +58,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     with warnings.catch_warnings():
         warnings.showwarning = _warn
         try:
-            return _dispatch(given)
-        except SystemExit as stop:
-            return stop.code if isinstance(stop.code, int) else 1
+            code = _dispatch(given)
+            sys.stdout.flush()
+            return code
         except KeyboardInterrupt:
             print("sgim: interrupted", file=sys.stderr)
             return 130
@@ -87,15 +87,17 @@ def _dispatch(given: list[str]) -> int:
         raise unknown("command", name, COMMANDS)
     import tyro
 
-    command = import_module(f"sgim.cli.{name}").command
-    code: int | None = tyro.cli(
-        command,
-        prog=f"sgim {name}",
-        description=_description(command.__doc__ or ""),
-        args=rest,
-        config=(tyro.conf.FlagCreatePairsOff,),
-    )
-    sys.stdout.flush()
+    command = import_module(f"sgim.cli.commands.{name}").command
+    try:
+        code: int | None = tyro.cli(
+            command,
+            prog=f"sgim {name}",
+            description=_description(command.__doc__ or ""),
+            args=rest,
+            config=(tyro.conf.FlagCreatePairsOff,),
+        )
+    except SystemExit as stop:  # after help, or a mistake that the parser has explained
+        return stop.code if isinstance(stop.code, int) else 0
     return code or 0
 
 

@@ -240,5 +240,10 @@ class Experiment:
 
 
 def evaluation_interval(movements: int) -> int:
-    """Movements between evaluations: 1000, or a quarter of a shorter run."""
-    return min(1000, max(1, movements // 4))
+    """Movements between evaluations: 1000 or less, a quarter of the run or less.
+
+    It divides the run evenly where that is possible, so that the last evaluation is at its end.
+    """
+    least = max(4, -(-movements // 1000))
+    even = (movements // parts for parts in range(least, 2 * least) if movements % parts == 0)
+    return next(even, max(1, movements // least))

@@ -103,6 +103,7 @@ class RegionTree:
         self._interest = np.empty((64, len(self.modes)))
         self._tried = np.empty((64, len(self.modes)))
         self._episode = 0
+        self._cumulated: tuple[list[int], FloatArray] | None = None
         self.roots = {}
         for kind, box in self.spaces.items():
             d = box.dimension + contexts
@@ -139,6 +140,7 @@ class RegionTree:
     def update(self, report: EpisodeReport) -> None:
         """Add the episode's progress to its region and mode; split the region if it is full."""
         self._episode = max(self._episode, report.episode + 1)
+        self._cumulated = None
         mode = self.modes.get(report.mode)
         goal = report.chosen if self.credit == "chosen" else report.pursued
         if mode is None or goal.kind not in self.spaces:
@@ -222,28 +224,33 @@ class RegionTree:
 
     def _pick(self, pick: float, modes: Sequence[str], context: Any) -> tuple[Region, str]:
         columns = [self.modes[m] for m in modes]
-        interest = self.interests()
-        if len(columns) < interest.shape[1]:
-            interest = interest[:, columns]
-        leaves = None
+        leaves: Sequence[int] = range(len(self.leaves))
         if self.context_space is not None:
-            place = np.clip(self.context_space.encode(context), 0.0, 1.0)
-            c = len(place)
-            leaves = [
-                r.leaf
-                for r in self.leaves
-                if (r.low[-c:] <= place).all() and (place <= r.high[-c:]).all()
-            ]
-            interest = interest[leaves]
-        weights = interest.ravel() - interest.min()
-        cumulated = weights.cumsum()
+            leaves, cumulated = self._present(columns, context)
+        else:  # the same for all that are chosen between two updates
+            if self._cumulated is None or self._cumulated[0] != columns:
+                self._cumulated = columns, _cumulated(self.interests()[:, columns])
+            cumulated = self._cumulated[1]
         total = cumulated[-1]
         if total > 0:
-            chosen = min(int(cumulated.searchsorted(pick * total, "right")), len(weights) - 1)
+            chosen = int(cumulated.searchsorted(pick * total, "right"))
+            chosen = min(chosen, len(cumulated) - 1)
         else:
-            chosen = int(pick * len(weights))
+            chosen = int(pick * len(cumulated))
         row, column = divmod(chosen, len(columns))
-        return self.leaves[row if leaves is None else leaves[row]], modes[column]
+        return self.leaves[leaves[row]], modes[column]
+
+    def _present(self, columns: list[int], context: Any) -> tuple[list[int], FloatArray]:
+        """The leaves that contain the context, and the cumulated weights of their pairs."""
+        assert self.context_space is not None
+        place = np.clip(self.context_space.encode(context), 0.0, 1.0)
+        c = len(place)
+        leaves = [
+            region.leaf
+            for region in self.leaves
+            if (region.low[-c:] <= place).all() and (place <= region.high[-c:]).all()
+        ]
+        return leaves, _cumulated(self.interests()[np.ix_(leaves, columns)])
 
     def _near_worst(self, region: Region, mode: int, elsewhere: FloatArray) -> FloatArray:
         """A point of the region a tenth of the way from its worst point to a random one."""
@@ -252,3 +259,9 @@ class RegionTree:
             return elsewhere
         worst = min(records, key=lambda r: r.competence).place[: len(elsewhere)]
         return np.array(worst) + 0.1 * (elsewhere - worst)
+
+
+def _cumulated(interest: FloatArray) -> FloatArray:
+    """Weights proportional to interest − min (eq. 4.4), row by row, cumulated."""
+    cumulated: FloatArray = (interest.ravel() - interest.min()).cumsum()
+    return cumulated

@@ -6,7 +6,6 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-from scipy.linalg.lapack import dposv
 
 from sgim.policy.explorer import Episode
 from sgim.policy.model import NearestModel
@@ -49,25 +48,6 @@ class _State:
         self.steps: list[FloatArray] = []
         self.proposed = policies[:0]
 
-    def near(self, size: int) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Offsets from the best policy, and of their keys, for the policies nearest to it.
-
-        Returns:
-            Shapes ``(size, dimension)`` and ``(size, key dimension)``, and the squared lengths
-            of the offsets, shape ``(size,)``; rows of zeros where there are too few.
-        """
-        n = self.count
-        if n < size:  # the rows behind the last are zero, but their offsets would not be
-            apart = np.zeros((size, self.policies.shape[1]))
-            effects = np.zeros((size, self.keys.shape[1]))
-            apart[:n] = self.policies[:n] - self.policies[self.best]
-            effects[:n] = self.keys[:n] - self.keys[self.best]
-            return apart, effects, np.einsum("ij,ij->i", apart, apart)
-        apart = self.policies[:n] - self.policies[self.best]
-        squares = np.einsum("ij,ij->i", apart, apart)
-        chosen = squares.argpartition(size - 1)[:size]
-        return apart[chosen], self.keys[chosen] - self.keys[self.best], squares[chosen]
-
     def add(self, policy: FloatArray, key: FloatArray, cost: float) -> None:
         n = self.count
         if n == len(self.policies):  # the farthest from the goal makes room
@@ -83,21 +63,22 @@ class _State:
 
 
 class LocalSearch:
-    """Alternates steps on a local linear map from policies to outcomes with differential steps.
+    """Alternates steps on a local linear map with differential steps.
 
     Starting from the remembered trials with the outcomes nearest to the goal, to which the
-    episode's own are added: (a) fit a linear map by ridge regression to the trials whose
-    policies are nearest to the best one, and take its minimum-norm step to the goal, no longer
-    than the neighbourhood is wide; (b) add a scaled difference of two of the policies to the
-    best one, as differential evolution does (Storn and Price 1997). With a probability equal to
-    the goal's cost, and no less than ``least_global``, try a random policy instead (thesis
-    algorithm 3.2.4).
+    episode's own are added: (a) combine the offsets of their policies from the best one so that
+    the offsets of their outcomes add up to what the best one lacks, by least squares weighted by
+    the inverse squared distance in policy space, and step no farther than the nearest of them
+    are; (b) add a scaled difference of two of the policies to the best one, as differential
+    evolution does (Storn and Price 1997). With a probability equal to the goal's cost, and no
+    less than ``least_global``, try a random policy instead (thesis algorithm 3.2.4).
+
+    Contexts are part of the outcomes here, so a step also makes up for the present context.
 
     Args:
         model: The memory's model; the policy space must be a `Box`.
         budget: Movements an episode usually has; only a hint for allocation.
-        local_policies: How many policies the linear map is fitted to.
-        ridge: Ridge, relative to the mean squared offset of the policies.
+        within: A linear step is no longer than the distance of so many of the policies.
         differential_weight: Largest weight F of the difference.
         differential_block: How many differences are drawn at once.
         least_global: Least probability of a random policy.
@@ -109,8 +90,7 @@ class LocalSearch:
         model: NearestModel,
         *,
         budget: int = 20,
-        local_policies: int = 16,
-        ridge: float = 1e-3,
+        within: int = 8,
         differential_weight: float = 0.7,
         differential_block: int = 3,
         least_global: float = 0.02,
@@ -121,11 +101,8 @@ class LocalSearch:
             raise TypeError(f"local search needs a policy space that is a Box, got {space!r}")
         self.model = model
         self.space = space
-        context_space = model.memory.task.context_space
-        self.context_dimension = (context_space.dimension or 0) if context_space else 0
         self.budget = budget
-        self.local_policies = local_policies
-        self.ridge = ridge
+        self.within = within
         self.differential_weight = differential_weight
         self.differential_block = differential_block
         self.least_global = least_global
@@ -184,29 +161,37 @@ class LocalSearch:
     def _linear_steps(self, states: Sequence[_State]) -> FloatArray:
         """Where each state's local linear map puts its goal, shape ``(states, dimension)``.
 
-        The map is fitted over policies and contexts; the context's share of the wanted effect
-        comes without a step. Arrays are stacked, so that each state's numbers go through the
-        same operations on the same shapes however many there are.
+        Arrays are stacked, so that each state's numbers go through the same operations on the
+        same shapes however many there are.
         """
-        dimension, outcomes = self.space.dimension, len(states[0].goal) - self.context_dimension
-        inputs, effects, squares = _stacked([s.near(self.local_policies) for s in states])
-        wanted = np.array([s.goal - s.keys[s.best] for s in states])
-        if self.context_dimension:
-            inputs = np.concatenate((inputs, effects[:, :, outcomes:]), axis=2)
-            effects = effects[:, :, :outcomes]
-        transposed = inputs.transpose(0, 2, 1)
-        ridge = self.ridge / self.local_policies
-        linear = transposed @ _solved(inputs @ transposed, effects, ridge)
-        target = wanted[:, :outcomes, None]
-        if self.context_dimension:
-            by_context = linear[:, dimension:].transpose(0, 2, 1)
-            target = target - by_context @ wanted[:, outcomes:, None]
-            linear = linear[:, :dimension]
-        steps = (linear @ _solved(linear.transpose(0, 2, 1) @ linear, target, 1e-9))[:, :, 0]
+        if len(states) == 1:
+            (state,) = states
+            policies, keys = state.policies[None], state.keys[None]
+            start, origin = policies[:, state.best], keys[:, state.best]
+            goals = state.goal[None]
+        else:
+            policies = np.array([s.policies for s in states])
+            keys = np.array([s.keys for s in states])
+            start = np.array([s.policies[s.best] for s in states])
+            origin = np.array([s.keys[s.best] for s in states])
+            goals = np.array([s.goal for s in states])
+        apart = policies - start[:, None]
+        effects = keys - origin[:, None]
+        squares = np.einsum("bij,bij->bi", apart, apart)
+        for i, state in enumerate(states):
+            squares[i, state.count :] = np.inf
+        reach = np.partition(squares, self.within, axis=1)[:, self.within]
+        for i, state in enumerate(states):
+            if state.count <= self.within:
+                reach[i] = squares[i, : state.count].max()
+        weights = 1.0 / (squares + (0.01 * reach + 1e-300)[:, None])
+        weighted = effects * weights[:, :, None]
+        gram = effects.transpose(0, 2, 1) @ weighted
+        shares = weighted @ _solved(gram, goals - origin)[:, :, None]
+        steps = (shares.transpose(0, 2, 1) @ apart)[:, 0]
         lengths = np.einsum("bi,bi->b", steps, steps)
-        shares = np.sqrt(squares.max(axis=1) / np.maximum(lengths, 1e-300))
-        start = np.array([s.policies[s.best] for s in states])
-        point: FloatArray = start + steps * np.minimum(shares, 1.0)[:, None]
+        limits = np.sqrt(np.minimum(reach / np.maximum(lengths, 1e-300), 1.0))
+        point: FloatArray = start + steps * limits[:, None]
         return point
 
     def learn(self, episode: Episode, trial: Trial, competence: float | None) -> None:
@@ -228,31 +213,33 @@ class LocalSearch:
         return -episode.best <= self.tolerance * tolerance
 
 
-def _stacked(
-    parts: Sequence[tuple[FloatArray, FloatArray, FloatArray]],
-) -> tuple[FloatArray, FloatArray, FloatArray]:
-    if len(parts) == 1:
-        first, second, third = parts[0]
-        return first[None], second[None], third[None]
-    firsts, seconds, thirds = zip(*parts, strict=True)
-    return np.array(firsts), np.array(seconds), np.array(thirds)
+def _solved(squares: FloatArray, right: FloatArray) -> FloatArray:
+    """Solve positive semidefinite systems, a little damped.
 
-
-def _solved(squares: FloatArray, right: FloatArray, ridge: float) -> FloatArray:
-    """Solve symmetric systems, with a share of each matrix's trace added to its diagonal.
-
-    One by one: LAPACK itself is faster here than its stacked form, and its rounding does not
-    depend on how many there are.
+    In plain Python: for the few coordinates of an outcome that is faster than LAPACK, and
+    elimination needs no pivots here.
 
     Args:
-        squares: Positive semidefinite matrices, shape ``(b, n, n)``; overwritten.
-        right: Right-hand sides, shape ``(b, n, m)``.
-        ridge: The share.
+        squares: Matrices, shape ``(b, n, n)``.
+        right: Right-hand sides, shape ``(b, n)``.
     """
-    b, n, _ = squares.shape
-    diagonals = squares.reshape(b, n * n)[:, :: n + 1]
-    diagonals += diagonals.sum(axis=1, keepdims=True) * ridge + 1e-300
-    solutions = np.empty_like(right)
-    for i in range(b):
-        solutions[i] = dposv(squares[i], right[i])[1]
-    return solutions
+    return np.array(
+        [_eliminated(m, r) for m, r in zip(squares.tolist(), right.tolist(), strict=True)]
+    )
+
+
+def _eliminated(rows: list[list[float]], right: list[float]) -> list[float]:
+    n = len(rows)
+    damping = 1e-6 / n * sum(rows[i][i] for i in range(n)) + 1e-300
+    for i in range(n):
+        rows[i][i] += damping
+        for j in range(i):
+            factor = rows[i][j] / rows[j][j]
+            for k in range(j + 1, n):
+                rows[i][k] -= factor * rows[j][k]
+            right[i] -= factor * right[j]
+    for i in range(n - 1, -1, -1):
+        for j in range(i + 1, n):
+            right[i] -= rows[i][j] * right[j]
+        right[i] /= rows[i][i]
+    return right

@@ -214,7 +214,7 @@ class SweepProgress:
             self._write(f"{self._title}: {self._total} runs")
         return self
 
-    def ended(self, run: SweptRun) -> None:
+    def ended(self, run: SweptRun | None = None) -> None:
         """Count a run that has ended."""
         self._done += 1
         if self._bar is not None and self._task is not None:

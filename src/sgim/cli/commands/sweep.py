@@ -51,6 +51,8 @@ def command(
     world = find_experiment(experiment)
     names = [name.strip() for name in learners.split(",") if name.strip()]
     numbers = parse_seeds(seeds)
+    for name in names:
+        world.learner(name, configuration=configuration)
     target = world.movements if movements is None else movements
     shown = SweepProgress(world.name, len(names) * len(numbers))
     try:

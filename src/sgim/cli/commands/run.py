@@ -34,7 +34,7 @@ def command(
     batch: int = 1,
     evaluate_every: Annotated[
         int | None,
-        arg(metavar="INT", help_behavior_hint="(default: 1000, or a quarter of a shorter run)"),
+        arg(metavar="INT", help_behavior_hint="(default: at most 1000, and a quarter of the run)"),
     ] = None,
     warm_start: Annotated[
         Path | None, arg(metavar="PATH", help_behavior_hint="(default: nothing)")

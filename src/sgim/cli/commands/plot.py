@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Callable
 from functools import partial
 from pathlib import Path
@@ -60,7 +61,11 @@ def command(
             try:
                 draw().savefig(file)
             except SgimError as error:
-                print(f"no {file}: {error}")
+                print(f"no {file}: {error}", file=sys.stderr)
+            except OSError as error:
+                raise SgimError(
+                    f"{file} cannot be written ({error.strerror}); choose another --out"
+                ) from error
             else:
                 print(file)
 

@@ -1,0 +1,1 @@
+"""The commands, one file each; `command` in it is what is called."""
