@@ -21,7 +21,7 @@ SPINE = (
     {"policy"},
     {"outcome"},
     {"strategy"},
-    {"ledger", "learner"},
+    {"ledger", "transitions", "learner"},
     {"configurations", "algorithms"},
     {"runs"},
     {"experiments"},

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from sgim.learner import Learner
     from sgim.records import Demonstration, Goal, Plan, Solution, Trajectory, Trial
     from sgim.runs import Benchmark, Journal, Run, keep_journal
-    from sgim.runs import open_repertoire as open
+    from sgim.runs import open_repertoire as open  # noqa: A004 - sgim.open is meant
     from sgim.spaces import Box, Choices, Space
     from sgim.task import Task
 

@@ -53,6 +53,6 @@ class Streams:
     def __call__(self, name: str, index: int = 0) -> np.random.Generator:
         """Open the stream called ``name``, number ``index``, at its beginning."""
         digest = _hash(self.seed, name).copy()
-        digest.update(index.to_bytes(8, "little", signed=True))
+        digest.update(int(index).to_bytes(8, "little", signed=True))
         words = np.frombuffer(digest.digest(), dtype="<u8").astype(np.uint64, copy=False)
         return np.random.Generator(np.random.PCG64(cast(Any, _Words(words))))

@@ -68,6 +68,7 @@ def test_leaves_fill_the_box_and_know_their_row(history: list[EpisodeReport]) ->
     tree = grown(history)
     assert sum(np.prod(r.high - r.low) for r in tree.leaves) == pytest.approx(1.0)
     assert [r.leaf for r in tree.leaves] == list(range(len(tree.leaves)))
+    assert all(tree.region_of("place", r.high) is r for r in tree.leaves)
     assert tree.interests().shape == (len(tree.leaves), 2)
 
 
@@ -158,6 +159,14 @@ def test_a_split_separates_different_interests() -> None:
     assert root.axis == 0
     assert 0.35 < root.cut <= 0.45
     assert sorted(tree.interests()[:, 0].tolist()) == pytest.approx([0.0, 0.8])
+
+
+def test_a_split_weighs_how_many_records_it_separates() -> None:
+    tree = tree_over({"alone": 1.0}, capacity=7, candidates=200)
+    # The first alone differs most from the others; four and four separate more.
+    for x, gain in enumerate((1.0, 0.6, 0.6, 0.6, 0.0, 0.0, 0.0, 0.0)):
+        tree.update(report([0.5 + x, 10], "alone", before=-1, after=-1 + gain))
+    assert sorted(tree.interests()[:, 0].tolist()) == pytest.approx([0.0, 0.7])
 
 
 def test_a_child_without_records_of_a_mode_keeps_its_parents_interest() -> None:

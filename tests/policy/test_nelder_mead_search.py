@@ -94,7 +94,8 @@ def test_the_same_policy_is_proposed_until_something_is_told_of_it() -> None:
 def test_a_refused_policy_counts_as_the_worst() -> None:
     def after(told: str) -> list[list[float]]:
         model = remember(PLANE, plane, AROUND)
-        search, episode = local(model), episode_for(model, goal_at(CENTRE))
+        far = Goal("place", plane(CENTRE)["place"] - [0.0, 8.0])  # What is remembered costs 0.8.
+        search, episode = local(model), episode_for(model, far)
         episode.best = 0.0
         search.begin(episode)
         proposed = []

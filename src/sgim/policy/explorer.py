@@ -63,6 +63,10 @@ class Explorer(Protocol):
         """Prepare an episode whose goal, context and demonstration are set."""
         ...
 
+    def moved(self, episode: Episode) -> None:
+        """Take note that ``episode.context`` has changed since the last trial."""
+        ...
+
     def propose(self, episodes: Sequence[Episode]) -> list[Any]:
         """One policy for each episode, within the bounds of the policy space.
 

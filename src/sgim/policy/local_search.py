@@ -48,6 +48,13 @@ class _State:
         self.steps: list[FloatArray] = []
         self.proposed = policies[:0]
 
+    def aim(self, goal: FloatArray) -> None:
+        self.goal = goal
+        offsets = self.keys[: self.count] - goal
+        self.costs = np.sqrt(np.einsum("ij,ij->i", offsets, offsets)).tolist()
+        if self.count:
+            self.best = min(range(self.count), key=self.costs.__getitem__)
+
     def add(self, policy: FloatArray, key: FloatArray, cost: float) -> None:
         n = self.count
         if n == len(self.policies):  # the farthest from the goal makes room
@@ -121,6 +128,11 @@ class LocalSearch:
             distances,
             self.model.neighbourhood + self.budget,
         )
+
+    def moved(self, episode: Episode) -> None:
+        """Measure what is known against the goal in the new context."""
+        assert episode.goal is not None
+        episode.state.aim(self.model.goal_key(episode.goal, episode.context))
 
     def propose(self, episodes: Sequence[Episode]) -> list[Any]:
         """A random, linear or differential step for each episode."""

@@ -107,6 +107,9 @@ class NelderMeadSearch:
         """Start a search at the memory as it is now."""
         episode.state = _State(self._search(episode))
 
+    def moved(self, episode: Episode) -> None:
+        """Nothing to note: the costs of all vertices go on counting, whatever their contexts."""
+
     def propose(self, episodes: Sequence[Episode]) -> list[Any]:
         """The point each search waits for; the same again until its cost is known."""
         policies = []

@@ -20,6 +20,9 @@ class Stateless:
     def begin(self, episode: Episode) -> None:
         """Nothing to prepare."""
 
+    def moved(self, episode: Episode) -> None:
+        """Nothing to note."""
+
     def learn(self, episode: Episode, trial: Trial, competence: float | None) -> None:
         """Nothing to note."""
 

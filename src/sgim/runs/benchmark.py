@@ -42,7 +42,7 @@ class Benchmark:
         Args:
             learner: Whose best policies are executed.
             streams: For contexts and for a world with noise, ``evaluation/…``.
-            index: Number of the evaluation.
+            index: Number of the evaluation: the movements made before it.
         """
         errors = {
             kind: float(np.mean(self.distances(learner, kind, streams, index)))

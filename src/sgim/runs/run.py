@@ -3,29 +3,27 @@
 from __future__ import annotations
 
 import platform
-import signal
 import sys
-import threading
 import time
 import warnings
-from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from collections.abc import Mapping
 from importlib.metadata import version
 from pathlib import Path
-from types import FrameType
 from typing import Any, Protocol
 
 import numpy as np
 
-from sgim.environments.base import MinimalEnvironment, draw_context, execute_all
+from sgim.environments.base import MinimalEnvironment
 from sgim.errors import JournalError, SgimError
 from sgim.events import Evaluated, Session
 from sgim.learner import Learner
-from sgim.records import Outcome, Plan
+from sgim.records import Plan
 from sgim.runs.benchmark import Benchmark
 from sgim.runs.continuation import keep_journal
+from sgim.runs.interrupt import InterruptWish
 from sgim.runs.journal import Journal
 from sgim.runs.replay import Replayed, iterate_trials
+from sgim.runs.world import Executed, World
 from sgim.streams import Streams
 from sgim.teachers import Teacher
 
@@ -80,6 +78,7 @@ class Run:
 
     Attributes:
         evaluations: All evaluations so far.
+        seconds: Time spent in `go` by this process.
         difference: The first decision that came out differently on resume and was adopted.
 
     Raises:
@@ -115,14 +114,13 @@ class Run:
         if evaluate_every < 1 or batch < 1:
             raise SgimError(f"evaluate_every={evaluate_every} and batch={batch} must be 1 or more")
         self.environment = environment
+        self.world = World(environment, self.teachers, Streams(learner.seed))
         self.benchmark = benchmark
         self.evaluate_every = evaluate_every
         self.batch = batch
         self.real = real
-        self.streams = Streams(learner.seed)
-        self.failures = 0
+        self._failures = 0
         self.seconds = 0.0
-        self._stopping = False
         replayed = Replayed(learner)
         self.journal: Journal | None = None
         if journal is not None:
@@ -178,10 +176,11 @@ class Run:
             observer.started(self, movements)
         begun = time.monotonic()
         try:
-            with self._stop_on_interrupt():
+            with InterruptWish() as wish:
                 if self.movements % self.evaluate_every == 0:
                     self._evaluate(observer)
-                self._continue(movements, observer)
+                self._continue(movements, observer, wish)
+                self._evaluate(observer)
         finally:
             self.seconds += time.monotonic() - begun
             if self.journal is not None:
@@ -190,7 +189,7 @@ class Run:
                 observer.ended(self)
         return self.evaluations
 
-    def _continue(self, target: int, observer: Observer | None) -> None:
+    def _continue(self, target: int, observer: Observer | None, wish: InterruptWish) -> None:
         start, asked = self._unfinished_round
         self._unfinished_round = (0, 0)
         if self.learner.pending and self.movements < target:
@@ -200,7 +199,7 @@ class Run:
             self._round(missing, observer)
         shown = time.monotonic()
         while self.movements < target:
-            if self._stopping:
+            if wish.stop:
                 raise Interrupted(f"stopped at {self.movements} of {target} movements")
             self._round(min(self.batch, target - self.movements), observer)
             if observer is not None and time.monotonic() - shown > 0.1:
@@ -209,72 +208,40 @@ class Run:
 
     def _round(self, n: int, observer: Observer | None) -> None:
         """Ask for n plans, and carry out all that are out."""
-        learner = self.learner
+        learner, world = self.learner, self.world
+        first = learner.ledger.next_plan
         if n == 1 and not learner.ledger.plans:
-            plan = learner.ask(self._contexts(1)[0])
+            plan = learner.ask(world.contexts(first, 1)[0])
             if plan.request is not None:
                 plan = self._answered(plan)
-            self._tell(plan, self._executed(plan), observer)
+            self._tell(plan, world.execute(plan), observer)
             return
         if n > 0:
-            learner.ask_batch(n, self._contexts(n))
+            learner.ask_batch(n, world.contexts(first, n))
         for plan in learner.pending:
             if plan.request is not None:
                 self._answered(plan)
         plans = learner.pending
-        for plan, outcome in zip(plans, self._executed_all(plans), strict=True):
+        for plan, outcome in zip(plans, world.execute_all(plans), strict=True):
             self._tell(plan, outcome, observer)
 
-    def _contexts(self, n: int) -> list[Any]:
-        if self.environment.task.context_space is None:
-            return [None] * n
-        first = self.learner.ledger.next_plan
-        return [
-            draw_context(self.environment, self.streams("context", first + i)) for i in range(n)
-        ]
-
     def _answered(self, plan: Plan) -> Plan:
-        request = plan.request
-        assert request is not None
         try:
-            rng = self.streams(f"teacher/{request.teacher}", request.index)
-            demonstration = self.teachers[request.teacher].demonstrate(request.goal, rng)
-            following = self.learner.answer(plan, demonstration)
+            return self.learner.answer(plan, self.world.demonstration(plan))
         except JournalError:
             raise
         except Exception as error:
-            self._failed(f"teacher {request.teacher!r}", error)
+            assert plan.request is not None
+            self._failed(f"teacher {plan.request.teacher!r}", error)
             return self.learner.answer(plan, None)
-        return following
 
-    def _executed(self, plan: Plan) -> Outcome | Exception:
-        environment = self.environment
-        rng = None if environment.deterministic else self.streams("environment", plan.id)
-        try:
-            return environment.execute(plan.policy, plan.context, rng)
-        except Exception as error:
-            return error
-
-    def _executed_all(self, plans: Sequence[Plan]) -> Sequence[Outcome | Exception]:
-        environment = self.environment
-        if len(plans) == 1:
-            return [self._executed(plans[0])]
-        rngs = None
-        if not environment.deterministic:
-            rngs = [self.streams("environment", plan.id) for plan in plans]
-        contexts = [p.context for p in plans] if environment.task.context_space else None
-        try:
-            return execute_all(environment, [p.policy for p in plans], contexts, rngs)
-        except Exception:
-            return [self._executed(plan) for plan in plans]
-
-    def _tell(self, plan: Plan, outcome: Outcome | Exception, observer: Observer | None) -> None:
+    def _tell(self, plan: Plan, outcome: Executed, observer: Observer | None) -> None:
         if isinstance(outcome, Exception):
             self._failed("the world", outcome, plan)
         else:
             try:
                 self.learner.tell(plan, outcome)
-                self.failures = 0
+                self._failures = 0
             except JournalError:
                 raise
             except SgimError as error:
@@ -286,12 +253,12 @@ class Run:
         """Note a failure; give up after too many in a row."""
         if plan is not None:
             self.learner.fail(plan, f"{type(error).__name__}: {error}")
-        if self.failures == 0:
+        if self._failures == 0:
             warnings.warn(f"{who} failed: {type(error).__name__}: {error}", stacklevel=3)
-        self.failures += 1
-        if self.failures >= self.most_failures:
+        self._failures += 1
+        if self._failures >= self.most_failures:
             raise RunError(
-                f"{who} failed {self.failures} times in a row, last with "
+                f"{who} failed {self._failures} times in a row, last with "
                 f"{type(error).__name__}: {error}. Nothing told is lost; mend it and resume."
             ) from error
 
@@ -300,8 +267,7 @@ class Run:
             return
         if self.evaluations and self.evaluations[-1].movements >= self.movements:
             return
-        index = self.movements // self.evaluate_every
-        errors = self.benchmark.evaluate(self.learner, self.streams, index)
+        errors = self.benchmark.evaluate(self.learner, self.world.streams, self.movements)
         evaluation = Evaluated(self.movements, errors)
         self._record(evaluation)
         self.evaluations.append(evaluation)
@@ -311,26 +277,6 @@ class Run:
     def _record(self, event: Evaluated | Session) -> None:
         if self.journal is not None:
             self.journal.append(event)
-
-    @contextmanager
-    def _stop_on_interrupt(self) -> Iterator[None]:
-        """Let Ctrl-C end the run between two movements; a second one ends it at once."""
-        if threading.current_thread() is not threading.main_thread():
-            yield
-            return
-        previous = signal.getsignal(signal.SIGINT)
-
-        def stop(number: int, frame: FrameType | None) -> None:
-            if self._stopping:
-                raise KeyboardInterrupt
-            self._stopping = True
-
-        signal.signal(signal.SIGINT, stop)
-        try:
-            yield
-        finally:
-            signal.signal(signal.SIGINT, previous)
-            self._stopping = False
 
     def close(self) -> None:
         """Close the journal; it then opens also where nobody may write."""

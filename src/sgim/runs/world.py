@@ -1,0 +1,70 @@
+"""The world of a run: environment and teachers, each trial and request with its own stream."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from sgim.environments.base import MinimalEnvironment, draw_context, execute_all
+from sgim.records import Demonstration, Outcome, Plan
+from sgim.streams import Streams
+from sgim.teachers import Teacher
+
+Executed = Outcome | Exception
+"""What a trial produced, or how the world broke."""
+
+
+class World:
+    """Carries out plans.
+
+    Args:
+        environment: Where policies are executed.
+        teachers: Name → teacher.
+        streams: Random streams ``context``, ``environment`` and ``teacher/NAME``, by the numbers
+            of plans and requests.
+    """
+
+    def __init__(
+        self, environment: MinimalEnvironment, teachers: Mapping[str, Teacher], streams: Streams
+    ) -> None:
+        self.environment = environment
+        self.teachers = dict(teachers)
+        self.streams = streams
+
+    def contexts(self, first: int, n: int) -> list[Any]:
+        """The contexts in which n plans will be made, the first of them number ``first``."""
+        if self.environment.task.context_space is None:
+            return [None] * n
+        return [
+            draw_context(self.environment, self.streams("context", first + i)) for i in range(n)
+        ]
+
+    def demonstration(self, plan: Plan) -> Demonstration | None:
+        """What the teacher asked by this plan shows."""
+        request = plan.request
+        assert request is not None
+        rng = self.streams(f"teacher/{request.teacher}", request.index)
+        return self.teachers[request.teacher].demonstrate(request.goal, rng)
+
+    def execute(self, plan: Plan) -> Executed:
+        """Execute one plan's policy."""
+        environment = self.environment
+        rng = None if environment.deterministic else self.streams("environment", plan.id)
+        try:
+            return environment.execute(plan.policy, plan.context, rng)
+        except Exception as error:
+            return error
+
+    def execute_all(self, plans: Sequence[Plan]) -> Sequence[Executed]:
+        """Execute several plans' policies at once; one by one if that breaks."""
+        if len(plans) == 1:
+            return [self.execute(plans[0])]
+        environment = self.environment
+        rngs = None
+        if not environment.deterministic:
+            rngs = [self.streams("environment", plan.id) for plan in plans]
+        contexts = [p.context for p in plans] if environment.task.context_space else None
+        try:
+            return execute_all(environment, [p.policy for p in plans], contexts, rngs)
+        except Exception:
+            return [self.execute(plan) for plan in plans]
