@@ -103,7 +103,7 @@ def main() -> None:
     for evaluation in run.go(1000):
         print(f"{evaluation.movements:4} movements, mean error {evaluation.errors['puck']:.4f}")
     solution = learner.solve("puck", [0.4, 0.6])
-    print(f"policy {solution.policy}, expected {solution.expected} ± {solution.spread} m")
+    print("policy", solution.policy.round(3), "expected", solution.expected.round(3), "m")
 
 
 if __name__ == "__main__":

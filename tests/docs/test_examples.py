@@ -150,7 +150,7 @@ def test_a_real_arm_meets_every_ending_of_a_trial_and_says_what_trials_cost(
 
 # The command line, as shown.
 
-NUMBER = re.compile(r"-?[0-9]+(?:\.[0-9]+)?(?:e[-+]?[0-9]+)?%?|–|\s+")
+NUMBER = re.compile(r"-?[0-9]+(?:\.[0-9]*)?(?:e[-+]?[0-9]+)?%?|–|\s+")
 
 
 def shape(text: str) -> str:

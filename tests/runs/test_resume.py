@@ -106,7 +106,7 @@ from pathlib import Path
 sys.path.insert(0, {tests!r})
 from tests.runs.test_resume import throwing_run
 with throwing_run(Path(sys.argv[1]), batch=int(sys.argv[2])) as run:
-    run.go(4000)
+    run.go(6000)
 """
 
 
@@ -117,18 +117,19 @@ def test_a_run_killed_again_and_again_ends_as_one_that_never_was(
     root = str(Path(__file__).parents[2])
     command = [sys.executable, "-c", SCRIPT.format(tests=root)]
     with throwing_run(tmp_path / "whole.sgim", batch=batch) as run:
-        run.go(4000)
+        run.go(6000)
     chance = random.Random(batch)
     part, kills = tmp_path / "part.sgim", 0
     for _ in range(200):
         process = subprocess.Popen([*command, str(part), str(batch)], cwd=root)
         # Whenever the journal has grown by a random amount, wherever that is in a batch.
         size = part.stat().st_size if part.exists() else 0
-        more = chance.randrange(20_000, 400_000)
+        more, wait = chance.randrange(1_000, 100_000), chance.random() * 0.2
         while process.poll() is None:
             wal = Path(f"{part}-wal")
             grown = sum(f.stat().st_size for f in (part, wal) if f.exists())
-            if grown > size + more and kills < 4:
+            if grown > size + more and kills < 3:
+                time.sleep(wait)
                 os.kill(process.pid, signal.SIGKILL)
                 kills += 1
                 break

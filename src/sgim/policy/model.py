@@ -141,32 +141,37 @@ class NearestModel:
         return self.memory.policies[int(self.memory.kinds[kind].trials.rows[row])]
 
     def solve(self, goal: Goal, context: Any) -> Solution:
-        """The nearest trial, and how its outcome scatters.
+        """The nearest trial, how much its outcome scatters, and whether the goal is near enough.
 
-        The spread is the standard deviation of what remains of the outcomes of the trials whose
-        policies are nearest to the answer (twice as many as a local linear map has unknowns)
-        after that map is fitted to them: noise, plus what is not linear there. A goal seems
-        reachable when the answer lies within its task's tolerance, or within two spreads.
+        The spread is what remains of the outcomes of similar policies after a linear map is
+        fitted to them, each weighted by the inverse squared distance of its policy from the
+        answer: noise, and what is not linear there. A goal seems reachable when the answer lies
+        within its task's tolerance, or no farther than twice the distance to which remembered
+        outcomes lie apart there.
         """
         policy = self.best_policy(goal, context)
         distances, rows = self.nearest(goal, context)
-        memory = self.memory.kinds[goal.kind]
+        memory, tolerance = self.memory.kinds[goal.kind], self.memory.task.tolerances[goal.kind]
         row, cost = int(rows[0]), min(1.0, float(distances[0]))
-        scaled = self._local_spread(goal.kind, row)
-        reach = max(self.memory.task.tolerances[goal.kind], 2 * float(np.sqrt((scaled**2).sum())))
+        apart, _ = memory.nearest(memory.keys.rows[row], 6)
+        scaled = self._spread(goal.kind, row)
         span = getattr(self.memory.task.outcome_spaces[goal.kind], "range", np.ones(len(scaled)))
-        return Solution(policy, memory.outcomes[row], cost, scaled * span, cost <= reach)
+        reachable = cost <= max(tolerance, 2 * float(apart[-1]))
+        return Solution(policy, memory.outcomes[row], cost, scaled * span, reachable)
 
-    def _local_spread(self, kind: str, row: int) -> FloatArray:
+    def _spread(self, kind: str, row: int) -> FloatArray:
+        """Standard deviation of an outcome's scaled coordinates about a local linear map."""
         memory = self.memory.kinds[kind]
         centre = memory.encoded_policies(np.array([row]))[0]
-        unknowns = len(centre) + 1
-        _, rows = memory.nearest_policies(centre, 2 * unknowns)
+        apart, rows = memory.nearest_policies(centre, 2 * (len(centre) + 1))
         outcomes = memory.keys.rows[rows, : memory.dimension]
         design = np.column_stack((np.ones(len(rows)), memory.encoded_policies(rows) - centre))
-        fit, _, rank, _ = np.linalg.lstsq(design, outcomes, rcond=1e-8)
+        # The answer itself would fit exactly, were its weight not bounded by the next one's.
+        weights = 1 / np.maximum(apart, apart[min(1, len(apart) - 1)] + 1e-9)
+        fit, _, rank, _ = np.linalg.lstsq(design * weights[:, None], outcomes * weights[:, None])
         freedom = len(rows) - int(rank)
         if freedom <= 0:
             return np.zeros(memory.dimension or 0)
-        residual = outcomes - design @ fit
-        return np.asarray(np.sqrt((residual**2).sum(axis=0) / freedom))
+        squares = (weights[:, None] * (outcomes - design @ fit)) ** 2
+        mean = squares.sum(axis=0) / (weights**2).sum()
+        return np.asarray(np.sqrt(mean * len(rows) / freedom))

@@ -108,7 +108,8 @@ class NelderMeadSearch:
         episode.state = _State(self._search(episode))
 
     def moved(self, episode: Episode) -> None:
-        """Nothing to note: the costs of all vertices go on counting, whatever their contexts."""
+        """Start anew: what the vertices cost in another context says little about this one."""
+        self.begin(episode)
 
     def propose(self, episodes: Sequence[Episode]) -> list[Any]:
         """The point each search waits for; the same again until its cost is known."""
