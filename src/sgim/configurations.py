@@ -77,6 +77,7 @@ MODERN = Configuration(
     staleness=0.02,
     credit="chosen",
     sized=False,
+    split_candidates=10,
     news=True,
     reached_share=1.0,
     search_movements=10,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -159,6 +160,13 @@ class Memory:
         if self.task.context_space is None:
             return vector
         return np.concatenate((vector, self.task.context_space.encode(context)))
+
+    def keys(self, kind: str, points: Sequence[Any], contexts: Sequence[Any]) -> FloatArray:
+        """The keys of many outcomes or goals of a kind, shape ``(n, key dimension)``."""
+        space = self.task.outcome_spaces[kind]
+        if isinstance(space, Box) and self.task.context_space is None:
+            return space.encode(np.array(points))
+        return np.array([self.key(kind, p, c) for p, c in zip(points, contexts, strict=True)])
 
     def trial(self, number: int) -> Trial:
         """The trial of this number, 0 ≤ number < len(self)."""

@@ -133,8 +133,8 @@ class NearestModel:
         memory = self.memory.kinds[kind]
         if not len(memory):
             return [None] * len(goals)
-        keys = [self.memory.key(kind, g.point, c) for g, c in zip(goals, contexts, strict=True)]
-        _, rows = memory.nearest_batch(np.array(keys), 1)
+        keys = self.memory.keys(kind, [goal.point for goal in goals], contexts)
+        _, rows = memory.nearest_batch(keys, 1)
         return [self._policy(kind, int(row)) for row in rows[:, 0]]
 
     def _policy(self, kind: str, row: int) -> Any:

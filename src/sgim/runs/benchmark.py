@@ -68,13 +68,22 @@ class Benchmark:
             None if contexts is None else [contexts[i] for i in known],
             None if environment.deterministic else [rng] * len(known),
         )
-        space = environment.task.outcome_spaces[kind]
-        for i, outcome in zip(known, outcomes, strict=True):
-            if kind in outcome:
-                errors[i] = self._distance(space, outcome[kind], points[i])
+        produced = [j for j, outcome in enumerate(outcomes) if kind in outcome]
+        if produced:
+            reached = [outcomes[j][kind] for j in produced]
+            wanted = [points[known[j]] for j in produced]
+            errors[[known[j] for j in produced]] = self._distances(kind, reached, wanted)
         return errors
 
-    def _distance(self, space: Any, outcome: Any, goal: Any) -> float:
-        if self.distance == "metric" and isinstance(space, Box):
-            return float(np.linalg.norm(outcome - goal))
-        return min(1.0, float(np.linalg.norm(space.encode(outcome) - space.encode(goal))))
+    def _distances(self, kind: str, reached: Sequence[Any], wanted: Sequence[Any]) -> FloatArray:
+        space = self.environment.task.outcome_spaces[kind]
+        if isinstance(space, Box):  # encodes arrays of points at once
+            apart = np.array(reached) - np.array(wanted)
+            if self.distance == "metric":
+                return np.asarray(np.linalg.norm(apart, axis=1))
+            apart = apart / space.range
+        else:
+            apart = np.array(
+                [space.encode(a) - space.encode(b) for a, b in zip(reached, wanted, strict=True)]
+            )
+        return np.asarray(np.minimum(np.linalg.norm(apart, axis=1), 1.0))
