@@ -45,8 +45,10 @@ def main() -> None:
     row("one movement at a time", single, reference)
     row("64 at a time", batched, reference)
     asks = [asking(throwing, options, 1), asking(throwing, options, 64)]
-    print(f"a plan by ask {asks[0]:.1f} µs, by ask_batch(64) {asks[1]:.1f} µs: "
-          f"{asks[0] / asks[1]:.2f} times the throughput")
+    print(
+        f"a plan by ask {asks[0]:.1f} µs, by ask_batch(64) {asks[1]:.1f} µs: "
+        f"{asks[0] / asks[1]:.2f} times the throughput"
+    )
     if options.long:
         growth(throwing, options)
     if options.memory:
@@ -55,8 +57,10 @@ def main() -> None:
 
 def row(name: str, values: list[float], reference: list[float]) -> None:
     ratios = np.array(values) / np.array(reference)
-    print(f"{name:45s} median {np.median(values):7.1f} µs  least {min(values):7.1f} µs  "
-          f"{np.median(ratios):6.2f} × reference")
+    print(
+        f"{name:45s} median {np.median(values):7.1f} µs  least {min(values):7.1f} µs  "
+        f"{np.median(ratios):6.2f} × reference"
+    )
 
 
 def reference_loop(iterations: int = 20000) -> float:
@@ -74,7 +78,7 @@ def reference_loop(iterations: int = 20000) -> float:
     return (time.process_time() - start) / iterations * 1e6
 
 
-def run(throwing, options, batch: int) -> float:  # noqa: ANN001
+def run(throwing, options, batch: int) -> float:
     with tempfile.TemporaryDirectory() as folder:
         learner = throwing.learner(options.learner, configuration=options.configuration)
         with throwing.run(learner, Path(folder) / "run.sgim", batch=batch) as going:
@@ -83,7 +87,7 @@ def run(throwing, options, batch: int) -> float:  # noqa: ANN001
             return (time.process_time() - start) / options.movements * 1e6
 
 
-def asking(throwing, options, batch: int) -> float:  # noqa: ANN001
+def asking(throwing, options, batch: int) -> float:
     """Microseconds a plan for deciding alone, the telling left out of the clock."""
     learner = throwing.learner(options.learner, configuration=options.configuration)
     world, teachers = throwing.environment(), throwing.make_teachers()
@@ -105,7 +109,7 @@ def asking(throwing, options, batch: int) -> float:  # noqa: ANN001
     return spent / learner.movements * 1e6
 
 
-def growth(throwing, options) -> None:  # noqa: ANN001
+def growth(throwing, options) -> None:
     with tempfile.TemporaryDirectory() as folder:
         learner = throwing.learner(options.learner, configuration=options.configuration)
         times = {}
@@ -115,8 +119,10 @@ def growth(throwing, options) -> None:  # noqa: ANN001
                 going.go(mark)
                 times[mark] = time.process_time() - start
     early, late = times[10000] / 1000 * 1e6, times[100000] / 10000 * 1e6
-    print(f"a movement from 9 000 to 10 000: {early:.1f} µs; from 90 000 to 100 000: {late:.1f} µs;"
-          f" {late / early:.2f} times")
+    print(
+        f"a movement from 9 000 to 10 000: {early:.1f} µs; from 90 000 to 100 000: {late:.1f} µs;"
+        f" {late / early:.2f} times"
+    )
 
 
 def million_trials() -> None:
@@ -132,8 +138,10 @@ def million_trials() -> None:
             memory.add(Trial(policy, {"throw": point}))
         memory.kinds["throw"].nearest(np.array([0.5, 0.5]), 20)
     peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
-    print(f"a million trials of 14 + 2 numbers, indexed: peak {peak:.0f} MB of the whole process, "
-          f"{peak - before:.0f} MB more than before")
+    print(
+        f"a million trials of 14 + 2 numbers, indexed: peak {peak:.0f} MB of the whole process, "
+        f"{peak - before:.0f} MB more than before"
+    )
 
 
 if __name__ == "__main__":

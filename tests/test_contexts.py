@@ -71,7 +71,7 @@ def tree_of(learner: Learner) -> RegionTree:
 @pytest.mark.parametrize("seed", range(2))
 @pytest.mark.parametrize("configuration", ["thesis", "modern"])
 def test_what_was_learned_is_used_with_regard_to_the_context(configuration: str, seed: int) -> None:
-    learner = algorithms.make("sagg-riac", ARM.task, config=configuration, seed=seed)
+    learner = algorithms.make("sagg-riac", ARM.task, configuration=configuration, seed=seed)
     live(learner, EARLY)
     early = knowing(learner)
     live(learner, LATE)
@@ -118,7 +118,7 @@ def test_every_plan_has_the_context_it_was_asked_in_also_within_an_episode() -> 
 
 
 def test_regions_divide_contexts_as_well_as_goals() -> None:
-    learner = algorithms.make("sagg-riac", ARM.task, config="thesis", seed=0)
+    learner = algorithms.make("sagg-riac", ARM.task, configuration="thesis", seed=0)
     live(learner, 1500)
     tree = tree_of(learner)
     assert {r.axis for r in _inner(tree)} >= {2}
@@ -137,7 +137,7 @@ def _inner(tree: RegionTree) -> list[Region]:
 
 def test_goals_are_chosen_from_interesting_regions_that_contain_the_present_context() -> None:
     learner, opened = (
-        algorithms.make("sagg-riac", ARM.task, config="thesis", seed=0),
+        algorithms.make("sagg-riac", ARM.task, configuration="thesis", seed=0),
         list[Opened](),
     )
     learner.record = lambda event: opened.append(event) if isinstance(event, Opened) else None

@@ -102,9 +102,7 @@ def drive(learner: sgim.Learner, arm: Arm, trials: int) -> None:
 def main(path: str, trials: int, seconds: float = 0.0) -> None:
     """Begin a run, or go on with the one that the journal has."""
     learner = sgim.algorithms.make("sgim-acts", TASK, ["person"], seed=7)
-    journal, replayed = sgim.keep_journal(learner, path, real=True)
-    with journal:
-        learner = replayed.learner
+    with sgim.keep_journal(learner, path, real=True) as learner:
         print(f"{learner.movements} trials so far", flush=True)
         drive(learner, Arm(seconds), trials)
     solution = learner.solve("drum", [1.0, 2.0])

@@ -16,9 +16,9 @@ if TYPE_CHECKING:
     from sgim.configurations import CONFIGURATIONS, Configuration
     from sgim.errors import SgimError
     from sgim.learner import Learner
-    from sgim.records import Demonstration, Goal, Plan, Solution, Trajectory, Trial
+    from sgim.records import Demonstration, Goal, Outcome, Plan, Solution, Trajectory, Trial
     from sgim.runs import Benchmark, Journal, Run, keep_journal
-    from sgim.runs import open_repertoire as open  # noqa: A004 - sgim.open is meant
+    from sgim.runs import open_repertoire as open  # noqa: A004, F401 - sgim.open
     from sgim.spaces import Box, Choices, Space
     from sgim.task import Task
 
@@ -32,6 +32,7 @@ _HOMES = {
     "Goal": "sgim.records",
     "Journal": "sgim.runs",
     "Learner": "sgim.learner",
+    "Outcome": "sgim.records",
     "Plan": "sgim.records",
     "Run": "sgim.runs",
     "SgimError": "sgim.errors",
@@ -42,6 +43,21 @@ _HOMES = {
     "Trial": "sgim.records",
     "keep_journal": "sgim.runs",
     "open": "sgim.runs",
+}
+
+_PACKAGES = {
+    "algorithms",
+    "environments",
+    "experiments",
+    "figures",
+    "memory",
+    "outcome",
+    "policy",
+    "primitives",
+    "runs",
+    "strategy",
+    "teachers",
+    "testing",
 }
 
 try:
@@ -59,6 +75,7 @@ __all__ = [
     "Goal",
     "Journal",
     "Learner",
+    "Outcome",
     "Plan",
     "Run",
     "SgimError",
@@ -69,13 +86,12 @@ __all__ = [
     "Trial",
     "algorithms",
     "keep_journal",
-    "open",
 ]
 
 
 def __getattr__(name: str) -> Any:
-    if name == "algorithms":
-        return import_module("sgim.algorithms")
+    if name in _PACKAGES:
+        return import_module(f"sgim.{name}")
     if name not in _HOMES:
         raise AttributeError(f"module 'sgim' has no attribute {name!r}")
     home = import_module(_HOMES[name])
@@ -85,4 +101,4 @@ def __getattr__(name: str) -> Any:
 
 
 def __dir__() -> list[str]:
-    return sorted([*__all__, "__version__"])
+    return sorted([*__all__, *_PACKAGES, "__version__", "open"])

@@ -10,138 +10,141 @@ mimicry                     mimic one teacher     region tree                 jo
 emulation                   emulate one teacher   region tree                 joint choice
 sgim-acts                   all of these          region tree                 joint choice
 ==========================  ====================  ==========================  ===================
+
+Every function takes the same arguments:
+
+* ``task``: the spaces of the world;
+* ``teachers``: names of the teachers that may be asked, one name or several;
+* ``configuration``: ``"modern"``, ``"thesis"``, or a `Configuration`;
+* ``seed``: of all the learner's random streams;
+* ``interest``: where given, makes the interest map from ``{mode: cost}`` instead of the
+  algorithm's own; a learner with one has no recipe, so that whoever opens its journal again must
+  pass the learner.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any
+from typing import Any, Protocol
 
-from sgim.configurations import Configuration, configuration
+from sgim.configurations import Configuration, configuration_of
 from sgim.errors import SgimError, unknown
 from sgim.learner import Learner
 from sgim.memory import Memory
-from sgim.outcome.interest import UniformGoals
-from sgim.outcome.region_tree import RegionTree
-from sgim.policy.explorer import Explorer
-from sgim.policy.local_search import LocalSearch
-from sgim.policy.model import NearestModel
-from sgim.policy.nelder_mead import NelderMeadSearch
-from sgim.policy.simple import Mimicry, NoisyNearest, RandomPolicies
-from sgim.strategy.modes import Mode
-from sgim.strategy.news import News
-from sgim.strategy.strategy import Aimless, JointChoice
+from sgim.outcome import InterestMap, RegionTree, UniformGoals
+from sgim.policy import (
+    Explorer,
+    LocalSearch,
+    Mimicry,
+    NearestModel,
+    NelderMeadSearch,
+    NoisyNearest,
+    RandomPolicies,
+)
+from sgim.strategy import Aimless, JointChoice, Mode, News, Strategy
 from sgim.streams import Streams
 from sgim.task import Task
 
-
-class _Parts:
-    """The parts that every composition of one configuration is made of."""
-
-    def __init__(self, task: Task, config: Configuration, seed: int) -> None:
-        self.task = task
-        self.config = config
-        self.streams = Streams(seed)
-        self.model = NearestModel(Memory(task))
-
-    def search(self) -> Explorer:
-        """The goal-directed explorer."""
-        if self.config.search == "nelder-mead":
-            return NelderMeadSearch(self.model)
-        config = self.config
-        return LocalSearch(
-            self.model, budget=config.search_movements, tolerance=config.reached_share
-        )
-
-    def autonomous(self) -> Mode:
-        return Mode("autonomous", self.search(), self.config.search_movements)
-
-    def mimic(self, teacher: str) -> Mode:
-        config = self.config
-        explorer = Mimicry(
-            self.task.policy_space, config.mimicry_radius, exact_first=config.mimicry_exact_first
-        )
-        return Mode(
-            f"mimic {teacher}", explorer, config.mimicry_movements, config.social_cost, teacher
-        )
-
-    def emulate(self, teacher: str, search: Explorer) -> Mode:
-        config = self.config
-        return Mode(
-            f"emulate {teacher}",
-            search,
-            config.search_movements,
-            config.social_cost,
-            teacher,
-            "demonstrated",
-        )
-
-    def joint_choice(self, modes: Sequence[Mode], alone: Mode) -> JointChoice:
-        """Joint choice over a region tree."""
-        config = self.config
-        tree = RegionTree(
-            self.task.goal_spaces,
-            {mode.name: mode.cost for mode in modes},
-            config.measure(self.task),
-            self.streams,
-            context_space=self.task.context_space,
-            capacity=config.region_capacity,
-            candidates=config.split_candidates,
-            probabilities=config.goal_rules,
-            prior=config.prior,
-            staleness=config.staleness,
-            credit=config.credit,
-        )
-        news = News(self.task.outcome_spaces) if config.news and alone in modes else None
-        return JointChoice(modes, tree, alone, news)
+Teachers = str | Sequence[str]
+MakeMap = Callable[[Mapping[str, float]], InterestMap]
+Given = str | Configuration
 
 
-def random_policies(parts: _Parts, teachers: Sequence[str]) -> Any:
+def random_policies(
+    task: Task, teachers: Teachers = (), *, configuration: Given = "modern", seed: int = 0
+) -> Learner:
     """Random policies, whatever they produce."""
-    return Aimless(Mode("random", RandomPolicies(parts.task.policy_space), 1, pursues="nothing"))
+    parts = _Parts("random", task, (), configuration, seed)
+    mode = Mode("random", RandomPolicies(task.policy_space), 1, pursues="nothing")
+    return parts.learner(Aimless(mode))
 
 
-def random_goal_babbling(parts: _Parts, teachers: Sequence[str]) -> Any:
+def random_goal_babbling(
+    task: Task,
+    teachers: Teachers = (),
+    *,
+    configuration: Given = "modern",
+    seed: int = 0,
+    interest: MakeMap | None = None,
+) -> Learner:
     """A uniform goal, the nearest remembered policy plus noise, one movement a goal."""
+    parts = _Parts("random-goal-babbling", task, (), configuration, seed, interest)
     mode = Mode("autonomous", NoisyNearest(parts.model), 1)
-    return JointChoice([mode], UniformGoals(parts.task.goal_spaces), mode)
+    uniform = UniformGoals(task.goal_spaces)
+    made = uniform if interest is None else interest({mode.name: mode.cost})
+    return parts.learner(JointChoice([mode], made, mode))
 
 
-def sagg_riac(parts: _Parts, teachers: Sequence[str]) -> Any:
+def sagg_riac(
+    task: Task,
+    teachers: Teachers = (),
+    *,
+    configuration: Given = "modern",
+    seed: int = 0,
+    interest: MakeMap | None = None,
+) -> Learner:
     """Goal babbling driven by interest, without teachers (thesis section 3.1.4)."""
-    mode = parts.autonomous()
-    return parts.joint_choice([mode], mode)
+    parts = _Parts("sagg-riac", task, (), configuration, seed, interest)
+    alone = parts.autonomous()
+    return parts.joint_choice([alone], alone)
 
 
-def mimicry(parts: _Parts, teachers: Sequence[str]) -> Any:
+def mimicry(
+    task: Task,
+    teachers: Teachers,
+    *,
+    configuration: Given = "modern",
+    seed: int = 0,
+    interest: MakeMap | None = None,
+) -> Learner:
     """Always mimic one teacher (section 4.3.3.3)."""
-    return parts.joint_choice([parts.mimic(_only(teachers))], parts.autonomous())
+    parts = _Parts("mimicry", task, teachers, configuration, seed, interest)
+    return parts.joint_choice([parts.mimic(parts.only_teacher())], parts.autonomous())
 
 
-def emulation(parts: _Parts, teachers: Sequence[str]) -> Any:
+def emulation(
+    task: Task,
+    teachers: Teachers,
+    *,
+    configuration: Given = "modern",
+    seed: int = 0,
+    interest: MakeMap | None = None,
+) -> Learner:
     """Always emulate one teacher (section 4.3.3.3)."""
+    parts = _Parts("emulation", task, teachers, configuration, seed, interest)
     alone = parts.autonomous()
-    return parts.joint_choice([parts.emulate(_only(teachers), alone.explorer)], alone)
+    return parts.joint_choice([parts.emulate(parts.only_teacher(), alone)], alone)
 
 
-def sgim_acts(parts: _Parts, teachers: Sequence[str]) -> Any:
+def sgim_acts(
+    task: Task,
+    teachers: Teachers,
+    *,
+    configuration: Given = "modern",
+    seed: int = 0,
+    interest: MakeMap | None = None,
+) -> Learner:
     """Choose goal, mode and teacher together (algorithm 4.3.1)."""
+    parts = _Parts("sgim-acts", task, teachers, configuration, seed, interest)
+    if not parts.teachers:
+        raise SgimError("sgim-acts chooses among teachers: name one or more, or use sagg-riac")
     alone = parts.autonomous()
-    modes = [alone, *(parts.mimic(t) for t in teachers)]
-    modes += [parts.emulate(t, alone.explorer) for t in teachers]
+    modes = [alone, *(parts.mimic(t) for t in parts.teachers)]
+    modes += [parts.emulate(t, alone) for t in parts.teachers]
     return parts.joint_choice(modes, alone)
 
 
-def _only(teachers: Sequence[str]) -> str:
-    if len(teachers) != 1:
-        raise SgimError(
-            f"this learner has exactly one teacher, but {len(teachers)} are given: "
-            f"{', '.join(teachers) or 'none'}; name one, as in mimicry:T1"
-        )
-    return teachers[0]
+class Algorithm(Protocol):
+    """A function of this module that makes a learner."""
+
+    def __call__(
+        self, task: Task, teachers: Teachers, *, configuration: Given, seed: int
+    ) -> Learner:
+        """Make the learner."""
+        ...
 
 
-ALGORITHMS: dict[str, Callable[[_Parts, Sequence[str]], Any]] = {
+ALGORITHMS: dict[str, Algorithm] = {
     "random": random_policies,
     "random-goal-babbling": random_goal_babbling,
     "sagg-riac": sagg_riac,
@@ -154,24 +157,20 @@ ALGORITHMS: dict[str, Callable[[_Parts, Sequence[str]], Any]] = {
 def make(
     name: str,
     task: Task,
-    teachers: Sequence[str] = (),
+    teachers: Teachers = (),
     *,
-    config: str | Configuration = "modern",
+    configuration: Given = "modern",
     seed: int = 0,
 ) -> Learner:
-    """Make a named learner."""
+    """Make a learner by its name.
+
+    Raises:
+        UnknownNameError: If there is no such learner or configuration.
+        SgimError: If the learner needs other teachers.
+    """
     if name not in ALGORITHMS:
         raise unknown("learner", name, ALGORITHMS)
-    chosen = configuration(config)
-    parts = _Parts(task, chosen, seed)
-    strategy = ALGORITHMS[name](parts, list(teachers))
-    recipe = {
-        "learner": name,
-        "teachers": list(teachers),
-        "configuration": chosen.describe(),
-        "seed": seed,
-    }
-    return Learner(task, strategy, parts.model, seed=seed, recipe=recipe)
+    return ALGORITHMS[name](task, teachers, configuration=configuration, seed=seed)
 
 
 def from_recipe(task: Task, recipe: Mapping[str, Any]) -> Learner:
@@ -180,6 +179,104 @@ def from_recipe(task: Task, recipe: Mapping[str, Any]) -> Learner:
         recipe["learner"],
         task,
         recipe["teachers"],
-        config=configuration(recipe["configuration"]),
+        configuration=configuration_of(recipe["configuration"]),
         seed=recipe["seed"],
     )
+
+
+class _Parts:
+    """The parts that every composition of one configuration is made of."""
+
+    def __init__(
+        self,
+        name: str,
+        task: Task,
+        teachers: Teachers,
+        configuration: Given,
+        seed: int,
+        interest: MakeMap | None = None,
+    ) -> None:
+        self.name = name
+        self.task = task
+        self.teachers = [teachers] if isinstance(teachers, str) else list(teachers)
+        self.config = configuration_of(configuration)
+        self.seed = seed
+        self.interest = interest
+        self.model = NearestModel(Memory(task))
+
+    def learner(self, strategy: Strategy) -> Learner:
+        recipe = {
+            "learner": self.name,
+            "teachers": self.teachers,
+            "configuration": self.config.describe(),
+            "seed": self.seed,
+        }
+        return Learner(
+            self.task,
+            strategy,
+            self.model,
+            seed=self.seed,
+            recipe=recipe if self.interest is None else None,
+        )
+
+    def only_teacher(self) -> str:
+        if len(self.teachers) != 1:
+            raise SgimError(
+                f"{self.name} has exactly one teacher, but {len(self.teachers)} are given: "
+                f"{', '.join(self.teachers) or 'none'}; name one, as in {self.name}:NAME or "
+                "teachers=NAME"
+            )
+        return self.teachers[0]
+
+    def autonomous(self) -> Mode:
+        return Mode("autonomous", self._search(), self.config.search_movements)
+
+    def _search(self) -> Explorer:
+        config = self.config
+        if config.search == "nelder-mead":
+            return NelderMeadSearch(self.model)
+        return LocalSearch(
+            self.model, budget=config.search_movements, tolerance=config.reached_share
+        )
+
+    def mimic(self, teacher: str) -> Mode:
+        config = self.config
+        explorer = Mimicry(
+            self.task.policy_space, config.mimicry_radius, exact_first=config.mimicry_exact_first
+        )
+        return Mode(
+            f"mimic {teacher}", explorer, config.mimicry_movements, config.social_cost, teacher
+        )
+
+    def emulate(self, teacher: str, alone: Mode) -> Mode:
+        return Mode(
+            f"emulate {teacher}",
+            alone.explorer,
+            alone.budget,
+            self.config.social_cost,
+            teacher,
+            "demonstrated",
+        )
+
+    def joint_choice(self, modes: Sequence[Mode], alone: Mode) -> Learner:
+        """A learner that chooses among modes by interest."""
+        config, costs = self.config, {mode.name: mode.cost for mode in modes}
+        made = self._tree(costs) if self.interest is None else self.interest(costs)
+        news = News(self.task.outcome_spaces) if config.news and alone in modes else None
+        return self.learner(JointChoice(modes, made, alone, news))
+
+    def _tree(self, costs: Mapping[str, float]) -> RegionTree:
+        config = self.config
+        return RegionTree(
+            self.task.goal_spaces,
+            costs,
+            config.measure(self.task),
+            Streams(self.seed),
+            context_space=self.task.context_space,
+            capacity=config.region_capacity,
+            candidates=config.split_candidates,
+            probabilities=config.goal_rules,
+            prior=config.prior,
+            staleness=config.staleness,
+            credit=config.credit,
+        )

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass
 from typing import Any, Literal
 
 from sgim.errors import unknown
@@ -85,7 +85,7 @@ MODERN = Configuration(
 CONFIGURATIONS = {c.name: c for c in (THESIS, MODERN)}
 
 
-def configuration(given: str | Configuration | Mapping[str, Any]) -> Configuration:
+def configuration_of(given: str | Configuration | Mapping[str, Any]) -> Configuration:
     """A configuration by name, as it is, or from what its ``describe`` gave."""
     if isinstance(given, Configuration):
         return given
@@ -100,4 +100,4 @@ def configuration(given: str | Configuration | Mapping[str, Any]) -> Configurati
     return Configuration(**{**given, "goal_rules": tuple(given["goal_rules"])})
 
 
-__all__ = ["CONFIGURATIONS", "Configuration", "configuration", "replace"]
+__all__ = ["CONFIGURATIONS", "Configuration", "configuration_of"]

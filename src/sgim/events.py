@@ -82,11 +82,13 @@ class Ended:
             counts against the plan), ``expired`` (nobody did it in time) or ``lost`` (started,
             and never heard of again).
         reason: Why, in words.
+        seconds: The robot's time it took, if known.
     """
 
     plan: int
     how: Ending
     reason: str
+    seconds: float | None = None
 
 
 @dataclass(frozen=True, slots=True, eq=False)

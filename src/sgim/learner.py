@@ -185,28 +185,38 @@ class Learner(Transitions):
             self.record(Told(plan.id, outcome, seconds))
         return self.learn_trial(plan, running, Trial(plan.policy, outcome, plan.context))
 
-    def fail(self, plan: Plan, reason: str) -> None:
+    def fail(self, plan: Plan, reason: str, *, seconds: float | None = None) -> None:
         """Say that the world broke while a plan was carried out: it teaches nothing."""
-        self._end(plan, "failed", reason)
+        self._end(plan, "failed", reason, seconds)
 
-    def refuse(self, plan: Plan, reason: str) -> None:
-        """Say that a safety check refused a plan: it counts against the plan, not the goal."""
-        self._end(plan, "refused", reason)
+    def refuse(self, plan: Plan, reason: str, *, seconds: float | None = None) -> None:
+        """Say that a safety check refused a plan: it counts against the plan, not the goal.
 
-    def expire(self, plan: Plan, reason: str = "nobody carried it out in time") -> None:
+        A refused plan is no movement; a check that always refuses must be noticed by whoever
+        drives the learner.
+        """
+        self._end(plan, "refused", reason, seconds)
+
+    def expire(
+        self,
+        plan: Plan,
+        reason: str = "nobody carried it out in time",
+        *,
+        seconds: float | None = None,
+    ) -> None:
         """Say that a plan will not be carried out any more.
 
         An expired request is an unanswered one: its episode goes on alone.
         """
-        self._end(plan, "expired", reason)
+        self._end(plan, "expired", reason, seconds)
 
     def lose(self, plan: Plan, reason: str = "started, and never heard of again") -> None:
         """Say that nobody knows what became of a plan; it is never silently repeated."""
         self._end(plan, "lost", reason)
 
-    def _end(self, plan: Plan, how: Ending, reason: str) -> None:
+    def _end(self, plan: Plan, how: Ending, reason: str, seconds: float | None = None) -> None:
         running = self.ledger.out(plan)
-        self._emit(Ended(plan.id, how, reason))
+        self._emit(Ended(plan.id, how, reason, seconds))
         self.learn_end(plan, running, how)
 
     # Being told unasked.

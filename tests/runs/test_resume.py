@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import os
 import random
 import shutil
@@ -31,7 +32,7 @@ def throwing_run(
 ) -> Run:
     world = ThrowingArm()
     learner = algorithms.make(
-        "sgim-acts", world.task, ["T1", "T2", "T3"], config=configuration, seed=seed
+        "sgim-acts", world.task, ["T1", "T2", "T3"], configuration=configuration, seed=seed
     )
     return Run(
         learner,
@@ -64,7 +65,7 @@ def whole_outcomes(path: Path) -> list[int]:
     """Where a group of rows ends that is written together."""
     with sqlite3.connect(path) as db:
         found = db.execute("SELECT seq, event FROM events ORDER BY seq").fetchall()
-    return [a[0] for a, b in zip(found, found[1:], strict=False) if b[1] != "also"]
+    return [a[0] for a, b in itertools.pairwise(found) if b[1] != "also"]
 
 
 @pytest.mark.parametrize(("batch", "configuration"), [(1, "modern"), (1, "thesis"), (16, "modern")])

@@ -65,11 +65,11 @@ class Experiment:
             if not self.teachers:
                 raise SgimError(f"{self.name} has no teachers; leave {teacher!r} out")
             raise unknown(f"teacher of {self.name}", teacher, self.teachers)
-        chosen = configurations.configuration(configuration)
+        chosen = configurations.configuration_of(configuration)
         teachers: Sequence[str] = [teacher] if colon else list(self.teachers)
         task = self.environment().task
         try:
-            learner = algorithms.make(algorithm, task, teachers, config=chosen, seed=seed)
+            learner = algorithms.make(algorithm, task, teachers, configuration=chosen, seed=seed)
         except UnknownNameError:
             raise
         except SgimError as error:

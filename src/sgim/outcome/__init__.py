@@ -1,1 +1,18 @@
-"""TODO."""
+"""The middle level: which goal to aim at, by competence, progress and interest."""
+
+from sgim.outcome.interest import EpisodeReport, InterestMap, UniformGoals
+from sgim.outcome.progress import CompetenceChange, InterestMeasure, MeanProgress, Record
+from sgim.outcome.region_tree import RegionTree
+from sgim.outcome.table import InterestTable
+
+__all__ = [
+    "CompetenceChange",
+    "EpisodeReport",
+    "InterestMap",
+    "InterestMeasure",
+    "InterestTable",
+    "MeanProgress",
+    "Record",
+    "RegionTree",
+    "UniformGoals",
+]

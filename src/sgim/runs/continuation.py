@@ -2,14 +2,48 @@
 
 from __future__ import annotations
 
+import platform
+import sys
+import time
 from collections.abc import Mapping
+from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from sgim.errors import JournalError
+from sgim.events import Session
 from sgim.learner import Learner
 from sgim.runs.journal import Journal
 from sgim.runs.replay import Replayed, replay
+
+
+class KeptJournal:
+    """A learner with its journal; entered with ``with``, it gives the learner and closes after.
+
+    Attributes:
+        learner: The learner to go on with: the one that was passed, unless decisions had to be
+            adopted.
+        journal: Its journal, which records every event of the learner.
+        replayed: What the recorded events came to.
+    """
+
+    def __init__(self, journal: Journal, replayed: Replayed) -> None:
+        self.journal = journal
+        self.replayed = replayed
+        self.learner = replayed.learner
+
+    def close(self) -> None:
+        """Let the learner go on without a journal, and close that."""
+        self.learner.record = None
+        self.journal.close()
+
+    def __enter__(self) -> Learner:
+        return self.learner
+
+    def __exit__(self, *exception: object) -> None:
+        self.close()
 
 
 def keep_journal(
@@ -19,7 +53,7 @@ def keep_journal(
     real: bool = False,
     adopt: bool = False,
     about: Mapping[str, Any] | None = None,
-) -> tuple[Journal, Replayed]:
+) -> KeptJournal:
     """Let a learner that has done nothing yet keep a journal, going on with it if it exists.
 
     Args:
@@ -33,9 +67,8 @@ def keep_journal(
         about: What to write in a new journal's header; an existing one must have the same.
 
     Returns:
-        The journal, and what its events came to. Go on with ``replayed.learner``, which is the
-        learner that was passed unless decisions had to be adopted, and with its ``pending``
-        plans. Close the journal at the end.
+        Learner and journal: ``with keep_journal(…) as learner`` goes on where the record ends.
+        The learner's ``pending`` plans are still to be carried out.
 
     Raises:
         JournalError: If the journal cannot be used, or is of another run.
@@ -55,12 +88,27 @@ def keep_journal(
             raise
     for event in replayed.unwritten:
         journal.append(event)
+    journal.append(Session(session_facts(adopted=replayed.difference)))
     replayed.learner.record = journal.append
     if real:
         for plan in replayed.learner.pending:
             if plan.request is None:
                 replayed.learner.lose(plan)
-    return journal, replayed
+    return KeptJournal(journal, replayed)
+
+
+def session_facts(**more: Any) -> dict[str, Any]:
+    """Which process writes: the time, versions and processor, and whatever else is given."""
+    facts = {
+        "time": time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime()),
+        "sgim": version("sgim"),
+        "python": platform.python_version(),
+        "numpy": np.__version__,
+        "scipy": version("scipy"),
+        "processor": platform.machine(),
+        "platform": sys.platform,
+    }
+    return facts | more
 
 
 def _check(path: str | Path, recorded: Mapping[str, Any], mine: Mapping[str, Any]) -> None:

@@ -107,8 +107,8 @@ class Decoders:
         return Observed(Trial(self._policy(policy), outcome, self._context(context)))
 
     def _ended(self, row: Stored) -> Ended:
-        _, _, _, plan, how, _, _, _, _, _, reason = row
-        return Ended(plan, cast(Ending, how), reason)
+        _, _, _, plan, how, _, _, _, _, seconds, reason = row
+        return Ended(plan, cast(Ending, how), reason, seconds)
 
     def _suggested(self, row: Stored) -> Suggested:
         kind, point = row[5:7]

@@ -139,7 +139,8 @@ class Encoders:
     def _ended(self, event: Ended) -> list[Row]:
         # A reason is often the text of an exception, which may hold what UTF-8 cannot.
         reason = event.reason.encode("utf-8", "backslashreplace").decode()
-        return [("ended", None, event.plan, event.how, None, None, None, None, None, reason)]
+        seconds = None if event.seconds is None else float(event.seconds)
+        return [("ended", None, event.plan, event.how, None, None, None, None, seconds, reason)]
 
     def _suggested(self, event: Suggested) -> list[Row]:
         kind, point = self._goal(event.goal)

@@ -2,16 +2,11 @@
 
 from __future__ import annotations
 
-import platform
-import sys
 import time
 import warnings
 from collections.abc import Mapping
-from importlib.metadata import version
 from pathlib import Path
 from typing import Any, Protocol
-
-import numpy as np
 
 from sgim.environments.base import MinimalEnvironment
 from sgim.errors import JournalError, SgimError
@@ -19,7 +14,7 @@ from sgim.events import Evaluated, Session
 from sgim.learner import Learner
 from sgim.records import Plan
 from sgim.runs.benchmark import Benchmark
-from sgim.runs.continuation import keep_journal
+from sgim.runs.continuation import keep_journal, session_facts
 from sgim.runs.interrupt import InterruptWish
 from sgim.runs.journal import Journal
 from sgim.runs.replay import Replayed, iterate_trials
@@ -125,9 +120,8 @@ class Run:
         self.journal: Journal | None = None
         if journal is not None:
             header = {**(about or {}), "evaluate_every": evaluate_every, "batch": batch}
-            self.journal, replayed = keep_journal(
-                learner, journal, real=real, adopt=adopt, about=header
-            )
+            kept = keep_journal(learner, journal, real=real, adopt=adopt, about=header)
+            self.journal, replayed = kept.journal, kept.replayed
         self.learner = replayed.learner
         self.evaluations = replayed.evaluations
         self.difference = replayed.difference
@@ -171,7 +165,7 @@ class Run:
             Interrupted: If the user stopped it; everything told is in the journal.
             RunError: If world or teachers fail too often in a row; the same holds.
         """
-        self._record(Session(_facts(movements, self.difference)))
+        self._record(Session(session_facts(target=movements)))
         if observer is not None:
             observer.started(self, movements)
         begun = time.monotonic()
@@ -289,17 +283,3 @@ class Run:
 
     def __exit__(self, *exception: object) -> None:
         self.close()
-
-
-def _facts(target: int, difference: str | None) -> dict[str, Any]:
-    return {
-        "target": target,
-        "time": time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime()),
-        "sgim": version("sgim"),
-        "python": platform.python_version(),
-        "numpy": np.__version__,
-        "scipy": version("scipy"),
-        "processor": platform.machine(),
-        "platform": sys.platform,
-        "adopted": difference,
-    }

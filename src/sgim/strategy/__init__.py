@@ -1,1 +1,7 @@
-"""TODO."""
+"""The upper level: which sampling mode, which teacher, when."""
+
+from sgim.strategy.modes import Mode
+from sgim.strategy.news import News
+from sgim.strategy.strategy import Aimless, JointChoice, Strategy
+
+__all__ = ["Aimless", "JointChoice", "Mode", "News", "Strategy"]

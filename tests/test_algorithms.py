@@ -1,0 +1,71 @@
+"""Named learners are made by name or by function, and can be made again from their recipe."""
+
+import pytest
+
+import sgim
+from sgim import algorithms
+from sgim.configurations import MODERN
+from sgim.environments import ThrowingArm
+from sgim.errors import SgimError, UnknownNameError
+from sgim.outcome import UniformGoals
+
+TASK = ThrowingArm().task
+
+
+@pytest.mark.parametrize("name", algorithms.ALGORITHMS)
+@pytest.mark.parametrize("configuration", ["modern", "thesis"])
+def test_a_recipe_makes_the_same_learner_again(name: str, configuration: str) -> None:
+    teachers = ["T1"] if name in ("mimicry", "emulation", "sgim-acts") else []
+    made = algorithms.make(name, TASK, teachers, configuration=configuration, seed=5)
+    again = algorithms.from_recipe(TASK, made.recipe or {})
+    assert again.recipe == made.recipe
+    assert list(again.strategy.modes) == list(made.strategy.modes)
+    one, other = made.ask(), again.ask()
+    assert (one.mode, one.request is None) == (other.mode, other.request is None)
+    if one.request is None:
+        assert (one.policy == other.policy).all()
+
+
+def test_one_teacher_may_be_named_alone() -> None:
+    learner = sgim.algorithms.sgim_acts(TASK, "expert")
+    assert learner.teachers == ("expert",)
+    assert list(learner.strategy.modes) == ["autonomous", "mimic expert", "emulate expert"]
+
+
+def test_learners_of_one_teacher_refuse_none_and_several() -> None:
+    with pytest.raises(SgimError, match="exactly one teacher, but 2 are given: T1, T2"):
+        algorithms.mimicry(TASK, ["T1", "T2"])
+    with pytest.raises(SgimError, match="exactly one teacher, but 0 are given: none"):
+        algorithms.emulation(TASK, [])
+    with pytest.raises(SgimError, match="use sagg-riac"):
+        algorithms.sgim_acts(TASK, [])
+
+
+def test_unknown_names_are_answered_with_the_nearest() -> None:
+    with pytest.raises(UnknownNameError, match="Did you mean 'sagg-riac'"):
+        algorithms.make("sag-riac", TASK)
+    with pytest.raises(UnknownNameError, match="Did you mean 'modern'"):
+        algorithms.make("random", TASK, configuration="modem")
+    with pytest.raises(UnknownNameError, match="Did you mean 'prior'"):
+        algorithms.from_recipe(
+            TASK,
+            {
+                "learner": "random",
+                "teachers": [],
+                "seed": 0,
+                "configuration": {**MODERN.describe(), "priors": 1},
+            },
+        )
+
+
+def test_an_interest_map_of_ones_own_takes_the_place_of_the_algorithms() -> None:
+    seen = {}
+
+    def make_map(costs):  # type: ignore[no-untyped-def]
+        seen.update(costs)
+        return UniformGoals(TASK.goal_spaces)
+
+    learner = algorithms.sgim_acts(TASK, "T1", interest=make_map)
+    assert seen == {"autonomous": 1.0, "mimic T1": 2.0, "emulate T1": 2.0}
+    assert learner.recipe is None
+    assert learner.ask().id == 0
