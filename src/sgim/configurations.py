@@ -74,13 +74,13 @@ MODERN = Configuration(
     mimicry_movements=3,
     mimicry_exact_first=True,
     goal_rules=(0.3, 0.5, 0.2),
-    staleness=0.02,
     credit="chosen",
     sized=False,
+    region_capacity=20,
     split_candidates=10,
     news=True,
     reached_share=1.0,
-    search_movements=10,
+    search_movements=5,
 )
 CONFIGURATIONS = {c.name: c for c in (THESIS, MODERN)}
 

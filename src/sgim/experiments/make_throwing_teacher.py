@@ -33,7 +33,7 @@ def main(folder: Path) -> None:
     chosen = select_throws(policies, outcomes, Streams(SEED)("throwing teacher"))
     comment = (
         "Made by: python -m sgim.experiments.make_throwing_teacher\n"
-        f"30 throws of a SAGG-RIAC learner (modern, seed {SEED}, {MOVEMENTS} movements),\n"
+        f"30 throws of a SAGG-RIAC learner (sgim 0.1.0, modern, seed {SEED}, {MOVEMENTS} trials),\n"
         "one in each of 30 cells of a 16 x 12 grid over the throwing outcomes."
     )
     write_table(folder / THROWING_TABLE, comment, arm.task.policy_space.describe()["names"], chosen)
