@@ -26,6 +26,10 @@ def command(
         int | None, arg(metavar="INT", help_behavior_hint="(default: the experiment's)")
     ] = None,
     batch: int = 1,
+    evaluate_every: Annotated[
+        int | None,
+        arg(metavar="INT", help_behavior_hint="(default: at most 1000, and a quarter of the run)"),
+    ] = None,
     jobs: int = 2,
     out: Path = Path("runs"),
 ) -> int:
@@ -45,6 +49,7 @@ def command(
         configuration: The learners' constants: modern or thesis.
         movements: How many movements each run makes.
         batch: Movements of a run that are carried out side by side.
+        evaluate_every: Movements between evaluations.
         jobs: How many runs are made at once, each in its own process.
         out: Directory of the journals.
     """
@@ -64,7 +69,7 @@ def command(
                 configuration=configuration,
                 movements=target,
                 batch=batch,
-                evaluate_every=evaluation_interval(target),
+                evaluate_every=evaluate_every or evaluation_interval(target),
                 jobs=jobs,
                 out=out,
                 on_end=shown.ended,
