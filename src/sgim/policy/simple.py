@@ -108,7 +108,7 @@ class NoisyNearest(Stateless):
             not all offspring of one policy.
     """
 
-    def __init__(self, model: NearestModel, noise: float = 0.1, bootstrap: int = 10) -> None:
+    def __init__(self, model: NearestModel, noise: float = 0.1, bootstrap: int = 30) -> None:
         self.model = model
         self.noise = noise
         self.bootstrap = bootstrap
