@@ -174,7 +174,14 @@ def make(
 
 
 def from_recipe(task: Task, recipe: Mapping[str, Any]) -> Learner:
-    """Make a learner again from its ``recipe``."""
+    """Make a learner again from its ``recipe``.
+
+    Raises:
+        SgimError: If the recipe is not one that this module wrote.
+    """
+    missing = {"learner", "teachers", "configuration", "seed"} - set(recipe)
+    if missing:
+        raise SgimError(f"the recipe lacks {', '.join(sorted(missing))}: it is not the library's")
     return make(
         recipe["learner"],
         task,

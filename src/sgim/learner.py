@@ -58,6 +58,24 @@ class Learner(Transitions):
         super().__init__(task, strategy, model, seed)
         self.recipe = None if recipe is None else dict(recipe)
 
+    def describe(self) -> dict[str, Any]:
+        """What tells learners apart: the recipe, or else the seed and the parts by their names."""
+        if self.recipe is not None:
+            return {"recipe": self.recipe}
+        modes = {
+            mode.name: [
+                type(mode.explorer).__name__,
+                mode.budget,
+                mode.cost,
+                mode.teacher,
+                mode.pursues,
+            ]
+            for mode in self.strategy.modes.values()
+        }
+        parts = [self.strategy, getattr(self.strategy, "interest", None), self.model]
+        names = [type(part).__name__ for part in parts]
+        return {"recipe": None, "seed": self.seed, "parts": names, "modes": modes}
+
     @property
     def seed(self) -> int:
         """The seed of the learner's random streams."""
@@ -245,6 +263,11 @@ class Learner(Transitions):
         if teacher not in self.teachers:
             raise unknown("teacher", teacher, self.teachers)
         self._unasked(Available(teacher, yes))
+
+    @property
+    def fresh(self) -> bool:
+        """Whether the learner has decided nothing and been told nothing yet."""
+        return self.ledger.next_plan == 0 and not self._was_told
 
     def _unasked(self, event: Observed | Demonstrated | Suggested | Available) -> None:
         self._emit(event)

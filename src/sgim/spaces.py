@@ -134,6 +134,8 @@ class Box:
                 f"{what} is {type(value).__name__} {value!r:.60}, expected {self._expected()}"
             ) from None
         if point.shape != self._shape:
+            if point.shape == () and self._shape == (1,):  # a plain number means the one there is
+                return self.check(point.reshape(1), what)
             raise SpaceError(f"{what} has shape {point.shape}, expected {self._expected()}")
         # The norm bounds every coordinate, and is NaN or infinite if one is.
         if not math.hypot(*point.tolist()) <= _LARGEST:

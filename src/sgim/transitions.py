@@ -65,12 +65,15 @@ class Transitions:
         self._absent: set[str] = set()
         self._suggestions: deque[Goal] = deque()
         self._given: deque[Demonstration] = deque()
+        self._was_told = False
 
     def decide_opening(self, context: Any) -> Opened:
         """Decide the next episode's mode and goal, without opening it."""
         number = self.ledger.next_episode
         self._rng = number, self.streams("learner", number)
         mode, chosen = self.strategy.choose(self._rng[1], self._absent, context)
+        if chosen is not None:
+            chosen = self.task.check_goal(chosen.kind, chosen.point)
         if self._given:
             shown = self._shown(self._given[0], chosen)
             mode = self._mode_for(self._given[0])
@@ -244,7 +247,8 @@ class Transitions:
         self.strategy.update(report)
 
     def take_unasked(self, event: Observed | Demonstrated | Suggested | Available) -> None:
-        """Fold one recorded message that was not about a plan."""
+        """Fold one message that was not about a plan."""
+        self._was_told = True
         match event:
             case Observed(trial):
                 self.model.update(trial)

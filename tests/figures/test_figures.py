@@ -94,6 +94,32 @@ def test_a_world_of_one_kind_has_one_panel_in_its_unit(tmp_path: Path) -> None:
     assert axes.get_ylabel() == "error (m)"
 
 
+def test_the_legend_of_a_single_panel_is_within_the_figure(tmp_path: Path) -> None:
+    arm = experiment("arm")
+    paths = []
+    for learner in ("random", "random-goal-babbling", "sagg-riac"):
+        for configuration in ("modern", "thesis"):
+            paths.append(tmp_path / f"{learner}-{configuration}.sgim")
+            with arm.start(learner, paths[-1], configuration=configuration) as run:
+                run.go(10)
+    figure = error_curves(paths)
+    assert saved(figure)
+    (legend,) = figure.legends
+    box = legend.get_window_extent()
+    assert box.x0 >= 0
+    assert box.x1 <= figure.bbox.x1
+    assert box.y0 >= 0
+    assert box.y1 < figure.axes[0].get_window_extent().y0
+
+
+def test_many_evaluations_have_few_markers(tmp_path: Path) -> None:
+    with experiment("arm").start("random", tmp_path / "a.sgim", evaluate_every=1) as run:
+        run.go(100)
+    (line,) = error_curves([tmp_path / "a.sgim"]).axes[0].lines
+    assert len(line.get_xdata()) == 101
+    assert len(line.get_xdata()[:: line.get_markevery()]) <= 20
+
+
 def test_choices_have_a_row_of_two_panels_for_each_learner(runs: list[Path]) -> None:
     figure = choices(runs)
     assert len(figure.axes) == 2 * 3 + 2

@@ -137,7 +137,7 @@ def test_another_task(path, task):
         goal_spaces=task.goal_spaces,
         context_space=task.context_space,
     )
-    message = r"another task: outcomes\.throw\.high\[1\] is 1\.0 as recorded and 2\.0 in the task"
+    message = r"another task: outcomes\.throw\.high\[1\] is 1\.0 as recorded and 2\.0 here"
     refuses(path, message, other)
 
 
@@ -145,10 +145,10 @@ def test_another_task(path, task):
     ("recorded", "given", "difference"),
     [
         ({"a": [1, {"b": 2}]}, {"a": [1, {"b": 2}]}, None),
-        ({"a": 1}, {"a": 1, "b": 2}, "b is in the task given, but not recorded"),
-        ({"a": {"b": 2}}, {"a": {}}, "a.b is recorded, but not in the task given"),
-        ({"a": [1, 2]}, {"a": [1]}, "a is [1, 2] as recorded and [1] in the task given"),
-        ({"a": None}, {"a": {"b": 1}}, "a is None as recorded and {'b': 1} in the task given"),
+        ({"a": 1}, {"a": 1, "b": 2}, "b is here, but not recorded"),
+        ({"a": {"b": 2}}, {"a": {}}, "a.b is recorded, but not here"),
+        ({"a": [1, 2]}, {"a": [1]}, "a is [1, 2] as recorded and [1] here"),
+        ({"a": None}, {"a": {"b": 1}}, "a is None as recorded and {'b': 1} here"),
     ],
 )
 def test_the_first_difference_is_named(recorded, given, difference):

@@ -154,7 +154,7 @@ def test_a_finished_run_can_be_extended(tmp_path: Path) -> None:
 def test_a_journal_of_another_learner_is_refused(tmp_path: Path) -> None:
     with throwing_run(tmp_path / "a.sgim") as run:
         run.go(20)
-    with pytest.raises(JournalError, match="another run: its recipe"):
+    with pytest.raises(JournalError, match=r"another run: recipe.seed is 3 as recorded and 4 here"):
         throwing_run(tmp_path / "a.sgim", seed=4)
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sqlite3
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -11,7 +12,7 @@ import pytest
 
 from sgim import algorithms
 from sgim.configurations import MODERN
-from sgim.environments import ThrowingArm
+from sgim.environments import PlanarArm, ThrowingArm
 from sgim.environments.benchmark_goals import throwing_goals
 from sgim.environments.throwing_teachers import throwing_teachers
 from sgim.errors import JournalError, SgimError
@@ -106,6 +107,49 @@ class Teacher:
         return self.answer
 
 
+def test_parts_that_cannot_be_used_are_named() -> None:
+    with pytest.raises(SgimError, match="expected an object with task, deterministic"):
+        Run(learner(), ThrowingArm)  # type: ignore[arg-type]
+    with pytest.raises(SgimError, match="teachers are a list"):
+        Run(learner("mimicry"), ThrowingArm(), [Teacher(None)])  # type: ignore[arg-type]
+    with pytest.raises(SgimError, match="wrap a function of the goal in ScriptedTeacher"):
+        Run(learner("mimicry"), ThrowingArm(), {"T1": lambda goal: None})  # type: ignore[dict-item]
+    with pytest.raises(SgimError, match="task is not the world's"):
+        Run(learner(), PlanarArm(3))
+
+
+def test_a_teacher_who_only_fails_stops_the_run() -> None:
+    run = Run(learner("mimicry"), ThrowingArm(), {"T1": Teacher(OSError("no connection"))})
+    with (
+        pytest.warns(UserWarning, match="teacher 'T1' failed"),
+        pytest.raises(RunError, match="'T1' failed 10 times in a row"),
+    ):
+        run.go(200)
+
+
+def test_a_journal_begins_with_a_learner_that_has_not_acted(tmp_path: Path) -> None:
+    used = learner()
+    used.ask()
+    with pytest.raises(SgimError, match="has acted already"):
+        Run(used, ThrowingArm(), journal=tmp_path / "a.sgim")
+
+
+def test_a_composed_learner_is_told_from_another_on_resume(tmp_path: Path) -> None:
+    def composed(seed: int, budget: int = 1) -> Any:
+        made = learner(seed=seed)
+        made.recipe = None
+        (mode,) = made.strategy.modes.values()
+        made.strategy.modes = {mode.name: replace(mode, budget=budget)}
+        return made
+
+    with Run(composed(7), ThrowingArm(), journal=tmp_path / "a.sgim") as run:
+        run.go(5)
+    with pytest.raises(JournalError, match="seed is 7 as recorded and 8 here"):
+        Run(composed(8), ThrowingArm(), journal=tmp_path / "a.sgim")
+    with pytest.raises(JournalError, match=r"modes.autonomous\[1\] is 1 as recorded and 2 here"):
+        Run(composed(7, budget=2), ThrowingArm(), journal=tmp_path / "a.sgim")
+
+
 ANSWERS = [
     OSError("no connection"),
     Demonstration({"thro": [1.0, 2.0]}, np.zeros(14)),
@@ -193,7 +237,7 @@ def test_a_journal_without_a_recipe_needs_its_learner(tmp_path: Path) -> None:
     made.recipe = None
     with Run(made, ThrowingArm(), journal=path) as run:
         run.go(20)
-    with pytest.raises(JournalError, match="pass learner=… as it was made"):
+    with pytest.raises(JournalError, match=r"with sgim.open\(path, learner=…\)"):
         open_repertoire(path)
     assert len(open_repertoire(path, learner=learner()).model.memory) == 20  # type: ignore[attr-defined]
 
@@ -210,8 +254,6 @@ def test_evaluations_come_at_their_interval_and_at_the_end() -> None:
 
 def test_news_make_a_learner_ask_less_once_its_teachers_repeat_themselves(tmp_path: Path) -> None:
     def requests(news: bool) -> tuple[int, int]:
-        from dataclasses import replace
-
         config = replace(MODERN, name="mine", news=news)
         made = algorithms.sgim_acts(TASK, ["T1", "T2", "T3"], configuration=config)
         path = tmp_path / f"{news}.sgim"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from math import ceil
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -20,6 +21,11 @@ if TYPE_CHECKING:
 
 _LOGARITHMIC = 10.0
 """Ratio of the largest to the smallest median from which the scale is logarithmic."""
+
+_MOST_MARKERS = 20
+"""Markers on a line; between them it has none."""
+
+_LEGEND_SIZE = 8.0  # points
 
 
 def error_curves(paths: Iterable[str | Path]) -> Figure:
@@ -41,15 +47,20 @@ def error_curves(paths: Iterable[str | Path]) -> Figure:
     kinds = list(runs[0].evaluations[-1].errors)
     if len(kinds) == 2:
         kinds.remove("total")  # the same as the only kind
-    figure = new_figure(max(4.0, 3.1 * len(kinds)), 3.4 + 0.18 * (len(groups) // 4))
+    labels = [
+        name if len(members) == 1 else f"{name} ({len(members)} runs)"
+        for name, members in groups.items()
+    ]
+    width = max(4.0, 3.1 * len(kinds))
+    columns = _legend_columns(labels, 72 * width)
+    figure = new_figure(width, 3.2 + 0.18 * ceil(len(labels) / columns))
     panels = figure.subplots(1, len(kinds), squeeze=False)[0]
     for panel, kind in zip(panels, kinds, strict=True):
         medians = []
-        for i, (name, members) in enumerate(groups.items()):
+        for i, (label, members) in enumerate(zip(labels, groups.values(), strict=True)):
             movements, quartiles = _quartiles(members, kind)
             colour = OKABE_ITO[i % len(OKABE_ITO)]
             line, marker = ("-", "--", ":")[i // len(OKABE_ITO) % 3], MARKERS[i % len(MARKERS)]
-            label = name if len(members) == 1 else f"{name} ({len(members)} runs)"
             panel.fill_between(
                 movements, quartiles[0], quartiles[2], color=colour, alpha=0.18, linewidth=0
             )
@@ -60,6 +71,7 @@ def error_curves(paths: Iterable[str | Path]) -> Figure:
                 color=colour,
                 label=label,
                 markersize=3.5,
+                markevery=ceil(len(movements) / _MOST_MARKERS) or 1,
                 linewidth=1.4,
             )
             medians.append(quartiles[1])
@@ -71,16 +83,28 @@ def error_curves(paths: Iterable[str | Path]) -> Figure:
         tidy(panel)
     experiment = EXPERIMENTS.get(runs[0].experiment or "")
     panels[0].set_ylabel(f"error ({experiment.unit})" if experiment else "error")
-    handles, labels = panels[0].get_legend_handles_labels()
     figure.legend(
-        handles,
-        labels,
+        *panels[0].get_legend_handles_labels(),
         loc="outside lower center",
-        ncols=min(4, len(labels)),
+        ncols=columns,
         frameon=False,
-        fontsize=8,
+        fontsize=_LEGEND_SIZE,
     )
     return figure
+
+
+def _legend_columns(labels: Sequence[str], width: float) -> int:
+    """How many columns of a legend, at most 4, fit into so many points."""
+    from matplotlib.textpath import TextPath
+
+    handle = 5 * _LEGEND_SIZE  # with the gaps beside it
+    widths = [
+        TextPath((0, 0), label, size=_LEGEND_SIZE).get_extents().width + handle for label in labels
+    ]
+    for columns in range(min(4, len(labels)), 1, -1):
+        if sum(part.max() for part in np.array_split(widths, columns)) < 0.95 * width:
+            return columns
+    return 1
 
 
 def _scale(axes: Axes, values: FloatArray) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import platform
 import sys
 import time
@@ -12,11 +13,13 @@ from typing import Any
 
 import numpy as np
 
-from sgim.errors import JournalError
+from sgim.errors import JournalError, SgimError
 from sgim.events import Session
 from sgim.learner import Learner
 from sgim.runs.journal import Journal
+from sgim.runs.journal_reading import first_difference
 from sgim.runs.replay import Replayed, replay
+from sgim.runs.rows import to_json
 
 
 class KeptJournal:
@@ -73,8 +76,14 @@ def keep_journal(
     Raises:
         JournalError: If the journal cannot be used, or is of another run.
         MismatchError: If a decision comes out differently, and is not adopted.
+        SgimError: If the learner has acted already.
     """
-    header = {**(about or {}), "recipe": learner.recipe}
+    if not learner.fresh:
+        raise SgimError(
+            "a journal begins with its learner, but this one has acted already: pass a learner "
+            "just made, as the recorded one was if the journal exists"
+        )
+    header = {**learner.describe(), **(about or {})}
     if not Path(path).exists():
         journal = Journal.create(path, header, learner.task, durable=real)
         replayed = Replayed(learner)
@@ -112,9 +121,10 @@ def session_facts(**more: Any) -> dict[str, Any]:
 
 
 def _check(path: str | Path, recorded: Mapping[str, Any], mine: Mapping[str, Any]) -> None:
-    for key, value in mine.items():
-        if recorded.get(key) != value:
+    given = json.loads(to_json(dict(mine)))
+    for key, value in given.items():
+        if difference := first_difference(recorded.get(key), value, key):
             raise JournalError(
-                f"{path} is of another run: its {key} is {recorded.get(key)!r:.300}, but here it "
-                f"is {value!r:.300}; resume it as it was begun, or choose another path"
+                f"{path} is of another run: {difference}; resume it as it was begun, or choose "
+                "another path"
             )

@@ -78,9 +78,9 @@ def first_difference(recorded: Any, given: Any, where: str = "") -> str | None:
         for key in [*recorded, *(key for key in given if key not in recorded)]:
             place = f"{where}.{key}" if where else key
             if key not in given:
-                return f"{place} is recorded, but not in the task given"
+                return f"{place} is recorded, but not here"
             if key not in recorded:
-                return f"{place} is in the task given, but not recorded"
+                return f"{place} is here, but not recorded"
             if difference := first_difference(recorded[key], given[key], place):
                 return difference
         return None
@@ -91,7 +91,7 @@ def first_difference(recorded: Any, given: Any, where: str = "") -> str | None:
         return None
     if recorded == given:
         return None
-    return f"{where or 'it'} is {recorded!r:.100} as recorded and {given!r:.100} in the task given"
+    return f"{where or 'it'} is {recorded!r:.100} as recorded and {given!r:.100} here"
 
 
 def read_rows(

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from sgim import algorithms
-from sgim.errors import JournalError
+from sgim.errors import JournalError, SgimError
 from sgim.learner import Learner
 from sgim.runs.journal import Journal
 from sgim.runs.replay import iterate_trials
@@ -30,12 +30,13 @@ def open_repertoire(
     """
     with Journal.open(path, task, append=False) as journal:
         if learner is None:
-            recipe = journal.header.get("recipe")
-            if recipe is None:
+            try:
+                learner = algorithms.from_recipe(journal.task, journal.header.get("recipe") or {})
+            except SgimError as error:
                 raise JournalError(
-                    f"{path} does not say how its learner is made; pass learner=… as it was made"
-                )
-            learner = algorithms.from_recipe(journal.task, recipe)
+                    f"{path} does not say how its learner is made ({error}); open it from Python "
+                    "with sgim.open(path, learner=…), with a learner made as it was"
+                ) from error
         for trial in iterate_trials(journal.events()):
             learner.observe(trial)
     return learner

@@ -12,7 +12,7 @@ import copy
 import math
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, NoReturn
 
 from sgim.errors import JournalError, MismatchError
 from sgim.events import (
@@ -33,7 +33,6 @@ from sgim.learner import Learner
 from sgim.ledger import Running
 from sgim.records import Goal, Plan, Trial
 from sgim.runs.rows import RecordedEvent, RecordedPlan
-from sgim.spaces import Space
 
 
 @dataclass
@@ -181,11 +180,11 @@ class _Fold:
         live = event.episode >= self.live_from
         if live:
             decided = self.learner.decide_opening(event.context)
-            self._compare(
-                f"episode {event.episode}",
-                (decided.mode, decided.cause, *self._goal_bytes(decided.goal)),
-                (event.mode, event.cause, *self._goal_bytes(event.goal)),
+            mine, recorded = (
+                (e.mode, e.cause, *self._goal_bytes(e.goal)) for e in (decided, event)
             )
+            if mine != recorded:
+                self._differ(f"episode {event.episode}", _words(decided), _words(event))
         self.learner.open(event, live=live)
 
     def _goal_bytes(self, goal: Goal | None) -> tuple[Any, ...]:
@@ -213,11 +212,12 @@ class _Fold:
     def _verify_plan(self, event: RecordedPlan, running: Running) -> None:
         what, space = f"plan {event.id}", self.learner.task.policy_space
         if running.must_ask:
-            self._compare(what, (running.mode.teacher,), (event.teacher,))
+            if running.mode.teacher != event.teacher:
+                self._differ(what, f"a request to {running.mode.teacher}", str(event.teacher))
             return
         policy = running.mode.explorer.propose([running.episode])[0]
-        recorded = None if event.policy is None else space.pack(event.policy)
-        self._compare(what, (space.pack(policy),), (recorded,), space)
+        if event.policy is None or space.pack(policy) != space.pack(event.policy):
+            self._differ(what, f"{policy!r:.300}", f"{event.policy!r:.300}")
 
     def _close(self, event: Closed) -> None:
         running = self.ledger.running.get(event.episode)
@@ -230,32 +230,21 @@ class _Fold:
         mine = self.concluded.pop(event.episode, None)
         if mine is None:
             raise JournalError(f"the journal closes episode {event.episode} twice: it is damaged")
-        self._compare(
-            f"the end of episode {event.episode}",
-            (mine.mode, mine.before, mine.after, mine.movements),
-            (event.mode, event.before, event.after, event.movements),
-        )
+        ends = [f"{(e.mode, e.before, e.after, e.movements)}" for e in (mine, event)]
+        if ends[0] != ends[1]:
+            self._differ(f"the end of episode {event.episode}", *ends)
 
-    def _compare(
-        self,
-        what: str,
-        mine: tuple[Any, ...],
-        recorded: tuple[Any, ...],
-        space: Space | None = None,
-    ) -> None:
-        if mine == recorded:
-            return
-        shown = [_shown(pair, space) for pair in (mine, recorded)]
+    def _differ(self, what: str, mine: str, recorded: str) -> NoReturn:
         raise MismatchError(
-            f"{what} comes out as {shown[0]} here, but as {shown[1]} there. Another version of the "
-            "library, or another processor? To go on with what is recorded: --adopt, adopt=True"
+            f"{what} comes out as {mine} here, but as {recorded} there. If learner and world are "
+            "made as they were, this is another version of the library or another processor: go "
+            "on with what is recorded by --adopt, or adopt=True"
         )
 
 
-def _shown(values: tuple[Any, ...], space: Space | None) -> str:
-    if space is not None and isinstance(values[0], bytes):
-        return f"{space.unpack(values[0])!r:.300}"
-    return ", ".join("…" if isinstance(v, bytes) else str(v) for v in values)
+def _words(event: Opened) -> str:
+    goal = "no goal" if event.goal is None else f"{event.goal.kind} {event.goal.point!r}"
+    return f"{event.mode} for {goal} ({event.cause})"
 
 
 def iterate_trials(events: Iterable[RecordedEvent]) -> Iterator[Trial]:

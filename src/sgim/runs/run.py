@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 import warnings
+from collections import Counter
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, Protocol
@@ -17,6 +18,7 @@ from sgim.runs.benchmark import Benchmark
 from sgim.runs.continuation import keep_journal, session_facts
 from sgim.runs.interrupt import InterruptWish
 from sgim.runs.journal import Journal
+from sgim.runs.journal_reading import first_difference
 from sgim.runs.replay import Replayed, iterate_trials
 from sgim.runs.world import Executed, World
 from sgim.streams import Streams
@@ -83,7 +85,7 @@ class Run:
     """
 
     most_failures = 10
-    """How many times in a row world and teachers may fail before the run stops."""
+    """How many times in a row the world, or a teacher, may fail before the run stops."""
 
     def __init__(
         self,
@@ -99,7 +101,8 @@ class Run:
         adopt: bool = False,
         about: Mapping[str, Any] | None = None,
     ) -> None:
-        self.teachers = dict(teachers or {})
+        self.teachers = _checked_teachers(teachers)
+        _check_world(environment, learner)
         missing = [name for name in learner.teachers if name not in self.teachers]
         if missing:
             raise SgimError(
@@ -114,7 +117,7 @@ class Run:
         self.evaluate_every = evaluate_every
         self.batch = batch
         self.real = real
-        self._failures = 0
+        self._failures: Counter[str] = Counter()
         self.seconds = 0.0
         replayed = Replayed(learner)
         self.journal: Journal | None = None
@@ -220,14 +223,17 @@ class Run:
             self._tell(plan, outcome, observer)
 
     def _answered(self, plan: Plan) -> Plan:
+        assert plan.request is not None
+        teacher = f"teacher {plan.request.teacher!r}"
         try:
-            return self.learner.answer(plan, self.world.demonstration(plan))
+            following = self.learner.answer(plan, self.world.demonstration(plan))
+            self._failures[teacher] = 0
         except JournalError:
             raise
         except Exception as error:
-            assert plan.request is not None
-            self._failed(f"teacher {plan.request.teacher!r}", error)
-            return self.learner.answer(plan, None)
+            following = self.learner.answer(plan, None)
+            self._failed(teacher, error)
+        return following
 
     def _tell(self, plan: Plan, outcome: Executed, observer: Observer | None) -> None:
         if isinstance(outcome, Exception):
@@ -235,7 +241,7 @@ class Run:
         else:
             try:
                 self.learner.tell(plan, outcome)
-                self._failures = 0
+                self._failures["the world"] = 0
             except JournalError:
                 raise
             except SgimError as error:
@@ -247,12 +253,12 @@ class Run:
         """Note a failure; give up after too many in a row."""
         if plan is not None:
             self.learner.fail(plan, f"{type(error).__name__}: {error}")
-        if self._failures == 0:
+        if self._failures[who] == 0:
             warnings.warn(f"{who} failed: {type(error).__name__}: {error}", stacklevel=3)
-        self._failures += 1
-        if self._failures >= self.most_failures:
+        self._failures[who] += 1
+        if self._failures[who] >= self.most_failures:
             raise RunError(
-                f"{who} failed {self._failures} times in a row, last with "
+                f"{who} failed {self._failures[who]} times in a row, last with "
                 f"{type(error).__name__}: {error}. Nothing told is lost; mend it and resume."
             ) from error
 
@@ -283,3 +289,33 @@ class Run:
 
     def __exit__(self, *exception: object) -> None:
         self.close()
+
+
+def _checked_teachers(teachers: Mapping[str, Teacher] | None) -> dict[str, Teacher]:
+    if not isinstance(teachers or {}, Mapping):
+        raise SgimError(
+            f"teachers are a {type(teachers).__name__}, expected teachers={{name: teacher}}"
+        )
+    for name, teacher in (teachers or {}).items():
+        if isinstance(teacher, type) or not callable(getattr(teacher, "demonstrate", None)):
+            raise SgimError(
+                f"teacher {name!r} is {teacher!r:.80}, expected an object with "
+                "demonstrate(goal, rng); wrap a function of the goal in ScriptedTeacher"
+            )
+    return dict(teachers or {})
+
+
+def _check_world(environment: MinimalEnvironment, learner: Learner) -> None:
+    missing = [n for n in ("task", "deterministic", "execute") if not hasattr(environment, n)]
+    if missing or isinstance(environment, type):
+        raise SgimError(
+            f"the world is {environment!r:.80}, expected an object with task, deterministic and "
+            "execute(policy, context, rng)"
+            + (f"; it lacks {', '.join(missing)}" if missing else "")
+        )
+    mine, its = learner.task.describe(), environment.task.describe()
+    if difference := first_difference(its, mine):
+        raise SgimError(
+            f"the learner's task is not the world's, taken as recorded: {difference}; make the "
+            "learner with the world's task"
+        )

@@ -117,7 +117,8 @@ def sweep(
             experiment,
             learner,
             seed,
-            experiment.journal_path(learner, seed, configuration, out),
+            # Workers may have been started in another directory.
+            experiment.journal_path(learner, seed, configuration, Path(out).absolute()),
             configuration,
             target,
             batch,
