@@ -153,9 +153,9 @@ class Trajectory:
             )
         if not (np.isfinite(self.times).all() and np.isfinite(self.positions).all()):
             raise SpaceError("trajectory has a number that is not finite")
-        steps = np.diff(self.times)
-        if not (steps > 0).all():
-            i = int(np.argmin(steps > 0))
+        later = self.times[1:] > self.times[:-1]
+        if not later.all():
+            i = int(np.argmin(later))
             raise SpaceError(
                 f"trajectory times must increase, but times[{i + 1}] = {self.times[i + 1]:g} "
                 f"comes after times[{i}] = {self.times[i]:g}"

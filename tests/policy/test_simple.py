@@ -128,7 +128,7 @@ def test_noise_around_the_nearest_policy_is_a_share_of_each_range() -> None:
     remembered = [CENTRE] + [np.array([90.0, 0.9, 0.9])] * 20
     model = remember(task, lambda b: {"place": b[1:] * 10}, remembered)
     goal = Goal("place", np.array([5.1, 5.1]))
-    explorer, episode = NoisyNearest(model, noise=0.05), episode_for(model, goal)
+    explorer, episode = NoisyNearest(model, noise=0.05, bootstrap=0), episode_for(model, goal)
     drawn = WIDE.encode(np.array(explorer.propose([episode] * 2000)))
     np.testing.assert_allclose(drawn.mean(axis=0), [0.5, 0.5, 0.5], atol=0.01)
     np.testing.assert_allclose(drawn.std(axis=0), 0.05, atol=0.005)
