@@ -114,7 +114,7 @@ def main(movements: int, journal: str = "puck.sgim") -> None:
     with sgim.Run(
         learner, world, {"Ada": ada}, journal=journal, benchmark=benchmark, evaluate_every=250
     ) as run:
-        print("goes on at", run.movements)
+        print(f"{run.movements:4} movements so far")
         evaluations = run.go(movements)
     for evaluation in evaluations:
         print(f"{evaluation.movements:4} movements, mean error {evaluation.errors['puck']:.4f}")

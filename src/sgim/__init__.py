@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from sgim.learner import Learner
     from sgim.records import Demonstration, Goal, Outcome, Plan, Solution, Trajectory, Trial
     from sgim.runs import Benchmark, Journal, Run, keep_journal
-    from sgim.runs import open_repertoire as open  # noqa: A004, F401 - sgim.open
+    from sgim.runs import open_repertoire as open  # noqa: A004 - sgim.open is meant
     from sgim.spaces import Box, Choices, Space
     from sgim.task import Task
 
@@ -86,6 +86,7 @@ __all__ = [
     "Trial",
     "algorithms",
     "keep_journal",
+    "open",
 ]
 
 
@@ -101,4 +102,4 @@ def __getattr__(name: str) -> Any:
 
 
 def __dir__() -> list[str]:
-    return sorted([*__all__, *_PACKAGES, "__version__", "open"])
+    return sorted([*__all__, *_PACKAGES, "__version__"])

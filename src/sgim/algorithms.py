@@ -243,7 +243,7 @@ class _Parts:
         if config.search == "nelder-mead":
             return NelderMeadSearch(self.model)
         return LocalSearch(
-            self.model, budget=config.search_movements, tolerance=config.reached_share
+            self.model, budget=config.search_movements, reached_share=config.reached_share
         )
 
     def mimic(self, teacher: str) -> Mode:

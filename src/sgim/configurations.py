@@ -34,8 +34,8 @@ class Configuration:
         sized: Whether progress is divided by the sizes |A_i| of eq. 4.2, which the task states.
         news: Whether requests are given up for exploring alone unless they are expected to bring
             a demonstration not seen before.
-        reached_share: Share of the task's tolerance within which local search counts a goal as
-            reached.
+        reached_share: Local search ends an episode when its goal is within the task's tolerance
+            and its cost at most this share of what it was before.
     """
 
     name: str
@@ -55,7 +55,7 @@ class Configuration:
     credit: Literal["chosen", "pursued"] = "pursued"
     sized: bool = True
     news: bool = False
-    reached_share: float = 1.0
+    reached_share: float = 0.5
 
     def measure(self, task: Task) -> InterestMeasure:
         """How progress and interest are measured (eq. 4.2 and 4.3)."""
@@ -79,7 +79,6 @@ MODERN = Configuration(
     region_capacity=20,
     split_candidates=10,
     news=True,
-    reached_share=1.0,
     search_movements=5,
 )
 CONFIGURATIONS = {c.name: c for c in (THESIS, MODERN)}

@@ -2,6 +2,7 @@
 
 import os
 import re
+import runpy
 import shlex
 import signal
 import subprocess
@@ -17,7 +18,7 @@ import sgim
 from sgim.algorithms import ALGORITHMS
 from sgim.configurations import CONFIGURATIONS, Configuration
 from sgim.errors import JournalError
-from sgim.events import Answered, Ended, Told
+from sgim.events import Answered, Ended, Opened, Told
 from sgim.outcome.region_tree import RegionTree
 from sgim.policy.local_search import LocalSearch
 from sgim.policy.model import NearestModel
@@ -58,6 +59,25 @@ def test_a_world_a_teacher_and_a_map_of_ones_own_are_checked_and_learn(tmp_path:
     first, *_, last = [float(line.split()[-1]) for line in lines if "mean error" in line]
     assert first == 1.0
     assert last < 0.05
+
+
+def test_a_learner_composed_by_hand_learns_in_all_its_modes() -> None:
+    names = runpy.run_path(str(EXAMPLES / "own_world.py"))
+    world = names["PuckTable"]()
+    learner = names["compose_learner"](world.task, seed=7)
+    opened = []
+    learner.record = lambda event: opened.append(event) if isinstance(event, Opened) else None
+    sgim.Run(learner, world, {"Ada": names["LeftSider"]()}).go(500)
+    assert {event.mode for event in opened} == {"autonomous", "mimic Ada", "emulate Ada"}
+    assert learner.solve("puck", [0.4, 0.6]).cost < 0.1
+
+
+def test_a_world_with_contexts_is_learned(tmp_path: Path) -> None:
+    uphill, downhill = output(str(EXAMPLES / "contexts.py"), cwd=tmp_path).splitlines()[::-1]
+    faster, slower = [float(line.split()[5]) for line in (uphill, downhill)]
+    assert faster > slower
+    for line in (uphill, downhill):
+        assert abs(float(line.split()[-2]) - 1.0) < 0.1
 
 
 # A real arm, killed and resumed.

@@ -167,12 +167,24 @@ def test_trials_of_other_kinds_and_refusals_teach_the_search_nothing() -> None:
         first.refuse(episodes[0])
 
 
-def test_a_search_ends_well_within_the_tolerance() -> None:
+@pytest.mark.parametrize(
+    ("before", "best", "ended"),
+    [
+        (-0.3, -0.02, False),  # nearer, and not within the tolerance of 0.01
+        (-0.3, -0.009, True),
+        (-0.009, -0.009, False),  # within the tolerance all along: it must come much nearer
+        (-0.009, -0.005, False),
+        (-0.009, -0.004, True),
+        (0.0, 0.0, True),
+    ],
+)
+def test_a_search_ends_when_the_goal_is_reached_and_much_nearer_than_before(
+    before: float, best: float, ended: bool
+) -> None:
     model = remember(PLANE, plane, random_policies(PLANE, 8))
-    search, episode = LocalSearch(model, tolerance=0.1), episode_for(model, goal_at(CENTRE))
-    for best, ended in ((-0.01, False), (-0.0011, False), (-0.0009, True), (0.0, True)):
-        episode.best = best
-        assert search.finished(episode) is ended
+    search, episode = LocalSearch(model, reached_share=0.5), episode_for(model, goal_at(CENTRE))
+    episode.before, episode.best = before, best
+    assert search.finished(episode) is ended
 
 
 def test_trials_of_the_episode_guide_its_next_steps() -> None:

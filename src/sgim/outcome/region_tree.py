@@ -9,6 +9,7 @@ import numpy as np
 
 from sgim.outcome.interest import EpisodeReport
 from sgim.outcome.progress import InterestMeasure, Record
+from sgim.outcome.weights import BlockSums
 from sgim.records import Goal
 from sgim.spaces import Box, FloatArray, Space
 from sgim.streams import Streams
@@ -103,13 +104,15 @@ class RegionTree:
         self._interest = np.empty((64, len(self.modes)))
         self._tried = np.empty((64, len(self.modes)))
         self._episode = 0
-        self._cumulated: tuple[list[int], FloatArray] | None = None
+        self._sums = BlockSums()
+        self._names = tuple(modes)
         self.roots = {}
         for kind, box in self.spaces.items():
             d = box.dimension + contexts
             root = self._add_leaf(Region(kind, np.zeros(d), np.ones(d), 0, len(self.modes)))
             self._interest[root.leaf] = prior / self.costs
             self._tried[root.leaf] = 0.0
+            self._sums.refresh(self._interest[: len(self.leaves)], root.leaf)
             self.roots[kind] = root
 
     def _add_leaf(self, region: Region) -> Region:
@@ -140,7 +143,6 @@ class RegionTree:
     def update(self, report: EpisodeReport) -> None:
         """Add the episode's progress to its region and mode; split the region if it is full."""
         self._episode = max(self._episode, report.episode + 1)
-        self._cumulated = None
         mode = self.modes.get(report.mode)
         goal = report.chosen if self.credit == "chosen" else report.pursued
         if mode is None or goal.kind not in self.spaces:
@@ -155,6 +157,7 @@ class RegionTree:
         self._tried[region.leaf, mode] = self._episode
         if len(records) > self.capacity and not self._split(region, mode):
             del records[0]
+        self._sums.refresh(self._interest[: len(self.leaves)], region.leaf)
 
     def _place(self, goal: Goal, context: Any) -> tuple[float, ...]:
         place: list[float] = self.spaces[goal.kind].encode(goal.point).tolist()
@@ -200,6 +203,7 @@ class RegionTree:
                 if child.records[i]:
                     interest = self.measure.interest(child.records[i]) / self.costs[i]
                     self._interest[child.leaf, i] = interest
+        self._sums.refresh(self._interest[: len(self.leaves)], upper.leaf)
         region.axis, region.cut, region.children = axis, cut, (lower, upper)
         region.records = []
 
@@ -224,13 +228,14 @@ class RegionTree:
 
     def _pick(self, pick: float, modes: Sequence[str], context: Any) -> tuple[Region, str]:
         columns = [self.modes[m] for m in modes]
+        if not self.staleness and self.context_space is None and len(columns) == len(self.modes):
+            row, column = self._sums.draw(self._interest[: len(self.leaves)], pick)
+            return self.leaves[row], self._names[column]
         leaves: Sequence[int] = range(len(self.leaves))
         if self.context_space is not None:
-            leaves, cumulated = self._present(columns, context)
-        else:  # the same for all that are chosen between two updates
-            if self._cumulated is None or self._cumulated[0] != columns:
-                self._cumulated = columns, _cumulated(self.interests()[:, columns])
-            cumulated = self._cumulated[1]
+            leaves = self._present(context)
+        interest = self.interests()[np.ix_(leaves, columns)]
+        cumulated = (interest.ravel() - interest.min()).cumsum()
         total = cumulated[-1]
         if total > 0:
             chosen = int(cumulated.searchsorted(pick * total, "right"))
@@ -240,17 +245,16 @@ class RegionTree:
         row, column = divmod(chosen, len(columns))
         return self.leaves[leaves[row]], modes[column]
 
-    def _present(self, columns: list[int], context: Any) -> tuple[list[int], FloatArray]:
-        """The leaves that contain the context, and the cumulated weights of their pairs."""
+    def _present(self, context: Any) -> list[int]:
+        """The leaves that contain the context."""
         assert self.context_space is not None
         place = np.clip(self.context_space.encode(context), 0.0, 1.0)
         c = len(place)
-        leaves = [
+        return [
             region.leaf
             for region in self.leaves
             if (region.low[-c:] <= place).all() and (place <= region.high[-c:]).all()
         ]
-        return leaves, _cumulated(self.interests()[np.ix_(leaves, columns)])
 
     def _near_worst(self, region: Region, mode: int, elsewhere: FloatArray) -> FloatArray:
         """A point of the region a tenth of the way from its worst point to a random one."""
@@ -259,9 +263,3 @@ class RegionTree:
             return elsewhere
         worst = min(records, key=lambda r: r.competence).place[: len(elsewhere)]
         return np.array(worst) + 0.1 * (elsewhere - worst)
-
-
-def _cumulated(interest: FloatArray) -> FloatArray:
-    """Weights proportional to interest − min (eq. 4.4), row by row, cumulated."""
-    cumulated: FloatArray = (interest.ravel() - interest.min()).cumsum()
-    return cumulated

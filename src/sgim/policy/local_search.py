@@ -101,7 +101,7 @@ class LocalSearch:
         differential_weight: float = 0.7,
         differential_block: int = 3,
         least_global: float = 0.02,
-        tolerance: float = 0.1,
+        reached_share: float = 0.5,
     ) -> None:
         space = model.memory.task.policy_space
         if not isinstance(space, Box):
@@ -113,7 +113,7 @@ class LocalSearch:
         self.differential_weight = differential_weight
         self.differential_block = differential_block
         self.least_global = least_global
-        self.tolerance = tolerance
+        self.reached_share = reached_share
 
     def begin(self, episode: Episode) -> None:
         """Gather the remembered trials nearest to the goal."""
@@ -218,11 +218,12 @@ class LocalSearch:
         """Nothing to add: the next step is drawn anew."""
 
     def finished(self, episode: Episode) -> bool:
-        """Whether the goal is reached, well within its task's tolerance."""
+        """Whether the goal is reached, and much nearer than it was before."""
         assert episode.goal is not None
         assert episode.best is not None
+        assert episode.before is not None
         tolerance = self.model.memory.task.tolerances[episode.goal.kind]
-        return -episode.best <= self.tolerance * tolerance
+        return -episode.best <= min(tolerance, self.reached_share * -episode.before)
 
 
 def _solved(squares: FloatArray, right: FloatArray) -> FloatArray:
