@@ -170,3 +170,19 @@ def test_journals_are_found_in_directories_each_once(tmp_path: Path) -> None:
     assert found == [tmp_path / "a" / "1.sgim", inside / "2.sgim"]
     with pytest.raises(JournalError, match="check the path"):
         find_journals([tmp_path / "c"])
+
+
+def test_what_went_wrong_is_counted(tmp_path) -> None:  # type: ignore[no-untyped-def]
+    from sgim import algorithms
+    from sgim.environments import ThrowingArm
+    from sgim.runs import keep_journal
+    from sgim.runs.summary import read_run
+
+    learner = algorithms.mimicry(ThrowingArm().task, "T1")
+    with keep_journal(learner, tmp_path / "a.sgim") as learner:
+        for _ in range(3):
+            plan = learner.answer(learner.ask(), None)
+            learner.fail(plan, "the motor is hot")
+            for _ in range(4):
+                learner.refuse(learner.ask(), "too fast")
+    assert read_run(tmp_path / "a.sgim").troubles == {"declined": 3, "failed": 3, "refused": 12}

@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
-from sgim.cli.text import choices, evaluations, example_goal, shell
+from sgim.cli.text import choices, evaluations, example_goal, shell, troubles
 from sgim.experiments import EXPERIMENTS
 from sgim.runs.progress import duration, progress
 from sgim.runs.run import Interrupted, Run, RunError
@@ -43,10 +43,10 @@ def go(run: Run, path: Path, target: int) -> int:
 
 
 def report(run: RecordedRun) -> None:
-    """Print the tables of errors and of choices."""
+    """Print the tables of errors and of choices, and what went wrong."""
     experiment = EXPERIMENTS.get(run.experiment or "")
     errors = evaluations(run, experiment.unit if experiment else "")
-    print("\n\n".join(part for part in (errors, choices(run)) if part))
+    print("\n\n".join(part for part in (errors, choices(run), troubles(run)) if part))
 
 
 def say_finished(run: RecordedRun) -> None:

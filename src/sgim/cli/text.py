@@ -58,6 +58,15 @@ def choices(run: RecordedRun) -> str:
     return f"shares of the episodes begun\n{table(rows, right=True)}"
 
 
+def troubles(run: RecordedRun) -> str:
+    """One line on plans that ended without an outcome; empty if there were none."""
+    if not run.troubles:
+        return ""
+    words = {"declined": "requests declined or not usable"}
+    counts = (f"{count} {words.get(how, how)}" for how, count in sorted(run.troubles.items()))
+    return f"without an outcome: {', '.join(counts)}"
+
+
 def coordinates(space: Space, point: Any, spread: Sequence[float] | None = None) -> list[list[str]]:
     """A point as rows ``[name, value with unit]``, with ± its spread if that is given."""
     if not isinstance(space, Box):

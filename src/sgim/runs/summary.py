@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from sgim.errors import JournalError
 from sgim.events import Evaluated, Session
 from sgim.runs.journal import Journal
+from sgim.runs.rows import DECLINED
 from sgim.task import Task
 
 QUARTERS = 4
@@ -73,6 +74,8 @@ class RecordedRun:
         target: How many movements the run was last asked for; None if it never began.
         evaluations: Its evaluations, in order.
         openings: Its episodes.
+        troubles: How a plan ended without an outcome, such as ``"failed"`` or ``"declined"`` (a
+            request without an answer) → how often.
     """
 
     path: Path
@@ -82,6 +85,7 @@ class RecordedRun:
     target: int | None
     evaluations: tuple[Evaluated, ...]
     openings: Openings
+    troubles: Mapping[str, int]
 
     @property
     def experiment(self) -> str | None:
@@ -188,6 +192,7 @@ def read_run(path: str | Path, task: Task | None = None) -> RecordedRun:
             target,
             tuple(evaluations),
             openings,
+            _troubles(journal),
         )
 
 
@@ -214,6 +219,14 @@ def find_journals(paths: list[Path]) -> list[Path]:
         else:
             raise JournalError(f"there is no journal {path}; check the path")
     return list(found)
+
+
+def _troubles(journal: Journal) -> Counter[str]:
+    found = Counter(str(how) for (how,) in journal.columns("ended", "name"))
+    details = (detail for (detail,) in journal.columns("answered", "detail"))
+    if declined := sum(detail == DECLINED for detail in details):
+        found["declined"] = declined
+    return found
 
 
 def _movements(journal: Journal) -> NDArray[np.int64]:

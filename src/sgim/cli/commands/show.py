@@ -43,5 +43,7 @@ def command(
     seed = "" if recorded.seed is None else f", seed {recorded.seed}"
     print(f"{title or recorded.path}{seed}: {made}\n")
     report(recorded)
-    if not recorded.finished:
+    if not recorded.finished and recorded.experiment is None:
+        print("\nIf it is not going on now: run the script that made it again")
+    elif not recorded.finished:
         print(f"\nIf it is not going on now: {shell('sgim', 'resume', path)}")
