@@ -105,6 +105,7 @@ class RegionTree:
         self._tried = np.empty((64, len(self.modes)))
         self._episode = 0
         self._sums = BlockSums()
+        self._draws = 2 + contexts + max(box.dimension for box in self.spaces.values())
         self._names = tuple(modes)
         self.roots = {}
         for kind, box in self.spaces.items():
@@ -211,7 +212,7 @@ class RegionTree:
         self, rng: np.random.Generator, modes: Sequence[str], context: Any
     ) -> tuple[Goal, str]:
         """Choose a goal and one of ``modes`` (thesis section 4.3.2.4, eq. 4.4)."""
-        rule, pick, *place = rng.random(2 + max(len(r.low) for r in self.roots.values())).tolist()
+        rule, pick, *place = rng.random(self._draws).tolist()
         uniform, interesting, _ = self.probabilities
         if rule < uniform:
             kinds = list(self.spaces)
@@ -220,8 +221,8 @@ class RegionTree:
             return Goal(kind, self.spaces[kind].sample(rng)), mode
         region, mode = self._pick(pick, modes, context)
         d = self.spaces[region.kind].dimension
-        low, high = region.low[:d], region.high[:d]
-        point = low + np.array(place[:d]) * (high - low)
+        bounds = zip(place, region.low[:d].tolist(), region.high[:d].tolist(), strict=False)
+        point = np.array([low + share * (high - low) for share, low, high in bounds])
         if rule >= uniform + interesting:
             point = self._near_worst(region, self.modes[mode], point)
         return Goal(region.kind, self.spaces[region.kind].decode(point)), mode

@@ -19,6 +19,7 @@ class BlockSums:
     def __init__(self) -> None:
         self._sums = np.zeros(0)
         self._minima = np.zeros(0)
+        self._drawn_from: tuple[float, FloatArray, FloatArray] | None = None
 
     def refresh(self, table: FloatArray, row: int) -> None:
         """Take note that a row of the table, shape ``(rows, columns)``, is new or has changed."""
@@ -27,6 +28,7 @@ class BlockSums:
             self._sums = np.append(self._sums, 0.0)
             self._minima = np.append(self._minima, 0.0)
         values = table[block * _BLOCK : (block + 1) * _BLOCK]
+        self._drawn_from = None
         self._sums[block] = values.sum()
         self._minima[block] = values.min()
 
@@ -36,11 +38,13 @@ class BlockSums:
         All alike if no value is above the least.
         """
         rows, columns = table.shape
-        least = self._minima.min()
-        counts = np.full(len(self._sums), float(_BLOCK * columns))
-        counts[-1] = (rows - _BLOCK * (len(counts) - 1)) * columns
-        weights = np.maximum(self._sums - least * counts, 0.0)
-        cumulated = weights.cumsum()
+        if self._drawn_from is None:  # the same for all draws between two changes
+            least = float(self._minima.min())
+            counts = np.full(len(self._sums), float(_BLOCK * columns))
+            counts[-1] = (rows - _BLOCK * (len(counts) - 1)) * columns
+            weights = np.maximum(self._sums - least * counts, 0.0)
+            self._drawn_from = least, weights, weights.cumsum()
+        least, weights, cumulated = self._drawn_from
         wanted = pick * cumulated[-1]
         block = min(int(cumulated.searchsorted(wanted, "right")), len(weights) - 1)
         values = table[block * _BLOCK : (block + 1) * _BLOCK].ravel()

@@ -153,12 +153,10 @@ class LocalSearch:
             steps = self._linear_steps([episodes[i].state for i in chosen])
             for i, point in zip(chosen, steps, strict=True):
                 points[i] = point
-        decoded = []
-        for episode, point in zip(episodes, points, strict=True):
-            clipped = np.minimum(np.maximum(point, 0.0), 1.0)
-            episode.state.proposed = clipped
-            decoded.append(self.space.decode(clipped))
-        return decoded
+        clipped = np.minimum(np.maximum(np.array(points), 0.0), 1.0)
+        for episode, point in zip(episodes, clipped, strict=True):
+            episode.state.proposed = point
+        return list(self.space.decode(clipped))
 
     def _differential(self, state: _State, rng: np.random.Generator) -> FloatArray:
         """The next of a few differential steps that are drawn together."""
