@@ -21,7 +21,7 @@ SPINE = (
     {"policy"},
     {"outcome"},
     {"strategy"},
-    {"ledger", "transitions", "learner"},
+    {"ledger", "transitions", "answers", "learner"},
     {"configurations", "algorithms"},
     {"runs"},
     {"experiments"},

@@ -10,7 +10,13 @@ import pytest
 from sgim import algorithms
 from sgim.environments import ThrowingArm
 from sgim.environments.throwing_teachers import throwing_teachers
-from sgim.errors import PlanError, SgimError, SpaceError, TeacherError, UnknownNameError
+from sgim.errors import (
+    PlanError,
+    SgimError,
+    SpaceError,
+    TeacherError,
+    UnknownNameError,
+)
 from sgim.events import Closed, Event, Opened, Planned, Told
 from sgim.learner import Learner
 from sgim.policy import NoAnswerError

@@ -30,6 +30,10 @@ class JournalError(SgimError):
     """A journal cannot be read, written, or continued."""
 
 
+class UnwrittenError(JournalError):
+    """An event could not be written yet; the journal keeps it and tries again."""
+
+
 class MismatchError(JournalError):
     """A decision recomputed on resume differs from the one recorded."""
 

@@ -7,11 +7,12 @@ whoever drives it has the world. Every decision and every message is an event, h
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from sgim import demonstrations
-from sgim.errors import SgimError, TeacherError, unknown
+from sgim.answers import Answers
+from sgim.errors import SpaceError, TeacherError, unknown
 from sgim.events import (
     Answered,
     Available,
@@ -24,14 +25,14 @@ from sgim.events import (
     Told,
 )
 from sgim.ledger import Running
-from sgim.policy.model import CompetenceModel, InverseModel
-from sgim.records import Demonstration, Outcome, Plan, Report, Solution, Trial
+from sgim.policy.model import CompetenceModel
+from sgim.records import Demonstration, Outcome, Plan, Report, Trial
 from sgim.strategy.strategy import Strategy
 from sgim.task import Task
 from sgim.transitions import Transitions
 
 
-class Learner(Transitions):
+class Learner(Transitions, Answers):
     """Chooses each episode what to aim at and how to learn it, and learns from what it is told.
 
     Args:
@@ -105,13 +106,24 @@ class Learner(Transitions):
         """
         context = self.task.check_context(context)
         if self.ledger.has_idle:
-            running = self.resumed(self.ledger.oldest_idle(), context)
+            running = self.ledger.oldest_idle()
+            try:
+                policy = self.proposed(self.resumed(running, context))
+            except BaseException:
+                self.ledger.make_idle(running)
+                raise
         else:
             event = self.decide_opening(context)
             running = self.open(event)
+            try:
+                policy = self.proposed(running)
+            except BaseException:
+                self.unopen(running, event)
+                raise
             self._emit(event)
-        policy = None if running.must_ask else running.mode.explorer.propose([running.episode])[0]
-        return self.issue(running, policy)
+        plan = self.issue(running, policy)
+        self.report_unwritten()
+        return plan
 
     def ask_batch(self, n: int, contexts: Sequence[Any] | None = None) -> list[Plan]:
         """Decide n plans that can be carried out side by side.
@@ -129,22 +141,32 @@ class Learner(Transitions):
         given = [None] * n if contexts is None else list(contexts)
         if n < 1 or len(given) != n:
             raise ValueError(f"ask_batch({n}) came with {len(given)} contexts; expected n ≥ 1 each")
-        opened: list[Opened | None] = []
-        chosen: list[Running] = []
-        for context in [self.task.check_context(c) for c in given]:
-            if self.ledger.has_idle:
-                opened.append(None)
-                chosen.append(self.resumed(self.ledger.oldest_idle(), context))
-            else:
-                event = self.decide_opening(context)
-                opened.append(event)
-                chosen.append(self.open(event))
-        policies = _propose([r for r in chosen if not r.must_ask])
+        checked = [self.task.check_context(c) for c in given]
+        chosen: list[tuple[Running, Opened | None]] = []
+        try:
+            for context in checked:
+                if self.ledger.has_idle:
+                    chosen.append((self.ledger.oldest_idle(), None))
+                    self.resumed(chosen[-1][0], context)
+                else:
+                    event = self.decide_opening(context)
+                    chosen.append((self.open(event), event))
+            policies = _propose([running for running, _ in chosen if not running.must_ask])
+            policies = [self.sealed(policy) for policy in policies]
+        except BaseException:
+            for running, opening in reversed(chosen):
+                if opening is None:
+                    self.ledger.make_idle(running)
+                else:
+                    self.unopen(running, opening)
+            raise
+        proposed = iter(policies)
         plans = []
-        for opening, running in zip(opened, chosen, strict=True):
+        for running, opening in chosen:
             if opening is not None:
                 self._emit(opening)
-            plans.append(self.issue(running, None if running.must_ask else next(policies)))
+            plans.append(self.issue(running, None if running.must_ask else next(proposed)))
+        self.report_unwritten()
         return plans
 
     # Being told.
@@ -179,8 +201,15 @@ class Learner(Transitions):
                     "trajectory; this one has only an outcome"
                 )
         self._emit(Answered(plan.id, usable, seconds))
-        self.learn_answer(plan, running, usable)
-        return self.issue(running, running.mode.explorer.propose([running.episode])[0])
+        try:
+            self.learn_answer(plan, running, usable)
+            policy = self.proposed(running)
+        except BaseException:
+            self.ledger.make_idle(running)
+            raise
+        following = self.issue(running, policy)
+        self.report_unwritten()
+        return following
 
     def tell(self, plan: Plan, outcome: Outcome, *, seconds: float | None = None) -> Report:
         """Say what a plan's policy produced.
@@ -200,8 +229,10 @@ class Learner(Transitions):
         running = self.ledger.out(plan, request=False)
         outcome = self.task.check_outcome(outcome)
         if self.record is not None:
-            self.record(Told(plan.id, outcome, seconds))
-        return self.learn_trial(plan, running, Trial(plan.policy, outcome, plan.context))
+            self._emit(Told(plan.id, outcome, seconds))
+        report = self.learn_trial(plan, running, Trial(plan.policy, outcome, plan.context))
+        self.report_unwritten()
+        return report
 
     def fail(self, plan: Plan, reason: str, *, seconds: float | None = None) -> None:
         """Say that the world broke while a plan was carried out: it teaches nothing."""
@@ -236,6 +267,7 @@ class Learner(Transitions):
         running = self.ledger.out(plan)
         self._emit(Ended(plan.id, how, reason, seconds))
         self.learn_end(plan, running, how)
+        self.report_unwritten()
 
     # Being told unasked.
 
@@ -256,7 +288,10 @@ class Learner(Transitions):
 
     def suggest(self, kind: str, point: Any) -> None:
         """Suggest a goal; the next new episode takes it up, in the mode that it would choose."""
-        self._unasked(Suggested(self.task.check_goal(kind, point)))
+        goal = self.task.check_goal(kind, point)
+        if not self.task.goal_spaces[kind].contains(goal.point):
+            raise SpaceError(f"goal {kind!r} {point!r:.100} is outside the bounds of its space")
+        self._unasked(Suggested(goal))
 
     def set_available(self, teacher: str, yes: bool) -> None:
         """Say whether a teacher can be asked; new episodes do not ask one who is away."""
@@ -272,40 +307,10 @@ class Learner(Transitions):
     def _unasked(self, event: Observed | Demonstrated | Suggested | Available) -> None:
         self._emit(event)
         self.take_unasked(event)
-
-    # Using what was learned.
-
-    def competence(self, kind: str, point: Any, context: Any = None) -> float:
-        """Competence for a goal, in the model's range ([−1, 0] for memories)."""
-        goal = self.task.check_goal(kind, point)
-        return self.model.competence(goal, self.task.check_context(context))
-
-    def best_policy(self, kind: str, point: Any, context: Any = None) -> Any:
-        """The policy to execute for a goal; `NoAnswerError` if nothing is known."""
-        goal = self.task.check_goal(kind, point)
-        return self._inverse.best_policy(goal, self.task.check_context(context))
-
-    def best_policies(
-        self, kind: str, points: Sequence[Any], contexts: Sequence[Any] | None = None
-    ) -> list[Any]:
-        """As `best_policy` for many goals of a kind at once; None where nothing is known."""
-        goals = [self.task.check_goal(kind, p) for p in points]
-        given = [None] * len(goals) if contexts is None else contexts
-        return self._inverse.best_policies(goals, [self.task.check_context(c) for c in given])
-
-    def solve(self, kind: str, point: Any, context: Any = None) -> Solution:
-        """The policy for a goal, what it should produce, and how sure that is."""
-        goal = self.task.check_goal(kind, point)
-        return self._inverse.solve(goal, self.task.check_context(context))
-
-    @property
-    def _inverse(self) -> InverseModel:
-        if not isinstance(self.model, InverseModel):
-            raise SgimError(f"{type(self.model).__name__} does not answer with policies")
-        return self.model
+        self.report_unwritten()
 
 
-def _propose(chosen: Sequence[Running]) -> Iterator[Any]:
+def _propose(chosen: Sequence[Running]) -> list[Any]:
     """Policies for these episodes in order, each explorer asked once."""
     groups: dict[int, list[int]] = {}
     for i, running in enumerate(chosen):
@@ -313,8 +318,7 @@ def _propose(chosen: Sequence[Running]) -> Iterator[Any]:
     policies: list[Any] = [None] * len(chosen)
     for members in groups.values():
         explorer = chosen[members[0]].mode.explorer
-        for i, policy in zip(
-            members, explorer.propose([chosen[i].episode for i in members]), strict=True
-        ):
+        proposed = explorer.propose([chosen[i].episode for i in members])
+        for i, policy in zip(members, proposed, strict=True):
             policies[i] = policy
-    return iter(policies)
+    return policies

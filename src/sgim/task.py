@@ -58,6 +58,9 @@ class Task:
         self.policy_space = policy_space
         self.outcome_spaces = dict(outcome_spaces)
         self.goal_spaces = dict(outcome_spaces if goal_spaces is None else goal_spaces)
+        for kind, space in self.outcome_spaces.items():
+            if kind in self.goal_spaces and self.goal_spaces[kind].describe() == space.describe():
+                self.goal_spaces[kind] = space  # outcomes of this kind can be goals
         self.context_space = context_space
         self.primitive = primitive
         self.tolerances = self._per_kind("tolerance", tolerances, 0.01)

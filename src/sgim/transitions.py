@@ -10,8 +10,10 @@ from collections import deque
 from collections.abc import Callable
 from typing import Any
 
+import numpy as np
+
 from sgim import ledger
-from sgim.errors import unknown
+from sgim.errors import UnwrittenError, unknown
 from sgim.events import (
     Available,
     Closed,
@@ -66,6 +68,7 @@ class Transitions:
         self._suggestions: deque[Goal] = deque()
         self._given: deque[Demonstration] = deque()
         self._was_told = False
+        self._unwritten: UnwrittenError | None = None
 
     def decide_opening(self, context: Any) -> Opened:
         """Decide the next episode's mode and goal, without opening it."""
@@ -114,9 +117,22 @@ class Transitions:
             self._suggestions.popleft()
         elif event.cause == "demonstration":
             episode.demonstration = self._given.popleft()
-        if not running.must_ask:
-            self._take_up(running)
+        try:
+            if not running.must_ask:
+                self._take_up(running)
+        except BaseException:
+            self.unopen(running, event)
+            raise
         return running
+
+    def unopen(self, running: Running, event: Opened) -> None:
+        """Forget an episode that could not be begun, as if it had not been decided."""
+        del self.ledger.running[event.episode]
+        self.ledger.next_episode = event.episode
+        if event.cause == "suggestion" and event.goal is not None:
+            self._suggestions.appendleft(event.goal)
+        elif event.cause == "demonstration" and running.episode.demonstration is not None:
+            self._given.appendleft(running.episode.demonstration)
 
     def _take_up(self, running: Running) -> None:
         """Pursue the goal, now that all there is to know about it is known."""
@@ -127,14 +143,18 @@ class Transitions:
             episode.goal = self._shown(episode.demonstration, running.chosen) or episode.goal
         if running.live:
             if episode.goal is not None:
-                competence = self.model.competence(episode.goal, episode.context)
+                competence = float(self.model.competence(episode.goal, episode.context))
                 episode.before = episode.best = competence
             mode.explorer.begin(episode)
 
     def _shown(self, demonstration: Demonstration, chosen: Goal | None) -> Goal | None:
         """The demonstrated outcome as a goal, of the kind chosen if it has that; else None."""
         outcomes, goals = self.task.outcome_spaces, self.task.goal_spaces
-        kinds = [k for k in demonstration.outcome if goals.get(k) is outcomes[k]]
+        kinds = [
+            kind
+            for kind, point in demonstration.outcome.items()
+            if goals.get(kind) is outcomes[kind] and goals[kind].contains(point)
+        ]
         if not kinds:
             return None
         kind = chosen.kind if chosen is not None and chosen.kind in kinds else kinds[0]
@@ -147,15 +167,40 @@ class Transitions:
             if space.pack(context) != space.pack(running.episode.context):
                 running.episode.context = context
                 if running.live:
+                    self._rebase(running.episode)
                     running.mode.explorer.moved(running.episode)
         return running
+
+    def _rebase(self, episode: Episode) -> None:
+        """Count what was gained so far, and measure from the new context on.
+
+        Otherwise an episode would be credited with the luck of its contexts.
+        """
+        if episode.goal is None or episode.before is None or episode.best is None:
+            return
+        episode.gained += episode.best - episode.before
+        competence = float(self.model.competence(episode.goal, episode.context))
+        episode.before = episode.best = competence
+
+    def proposed(self, running: Running) -> Any:
+        """The policy that an episode's explorer proposes next; None if it must ask first."""
+        if running.must_ask:
+            return None
+        return self.sealed(running.mode.explorer.propose([running.episode])[0])
+
+    def sealed(self, policy: Any) -> Any:
+        """A proposed policy, checked, and such that no world can change what is remembered."""
+        policy = self.task.check_policy(policy)
+        if isinstance(policy, np.ndarray):
+            policy.flags.writeable = False
+        return policy
 
     def issue(self, running: Running, policy: Any) -> Plan:
         """Give out an episode's next plan: this policy, or a request if it must ask."""
         teacher = running.mode.teacher if running.must_ask else None
         plan = self.ledger.give_out(running, policy, teacher)
         if self.record is not None:
-            self.record(Planned(plan))
+            self._emit(Planned(plan))
         return plan
 
     def learn_answer(
@@ -177,18 +222,20 @@ class Transitions:
         episode, goal = running.episode, running.episode.goal
         episode.movements += 1
         shown: float | None = None
-        if running.live:
-            if goal is not None and episode.best is not None:
-                shown = self.model.shown_by(trial, goal, episode.context)
-                if shown is None:
-                    episode.best = self.model.competence(goal, episode.context)
-                elif shown > episode.best:
-                    episode.best = shown
-            running.mode.explorer.learn(episode, trial, shown)
-        closed = self._resolved(running)
+        if running.live and goal is not None and episode.best is not None:
+            shown = self.model.shown_by(trial, goal, episode.context)
+            if shown is None:
+                episode.best = float(self.model.competence(goal, episode.context))
+            elif shown > episode.best:
+                episode.best = float(shown)
+        try:
+            if running.live:
+                running.mode.explorer.learn(episode, trial, shown)
+        finally:
+            closed = self._resolved(running)
         progress = None
         if closed and episode.best is not None and episode.before is not None:
-            progress = episode.best - episode.before
+            progress = episode.best - episode.before + episode.gained
         return Report(None if shown is None else -shown, episode.best, closed, progress)
 
     def learn_end(self, plan: Plan, running: Running, how: Ending) -> None:
@@ -223,7 +270,8 @@ class Transitions:
     def close(self, running: Running) -> None:
         """Close an episode, and let the strategy learn from what it came to."""
         e = running.episode
-        event = Closed(e.id, running.mode.name, e.goal, e.before, e.best, e.movements)
+        before = None if e.before is None else e.before - e.gained
+        event = Closed(e.id, running.mode.name, e.goal, before, e.best, e.movements)
         self._emit(event)
         self.credit(running, event)
 
@@ -259,9 +307,18 @@ class Transitions:
             case Available(teacher, yes):
                 (self._absent.discard if yes else self._absent.add)(teacher)
 
+    def report_unwritten(self) -> None:
+        """Raise if an event could not be written; it has happened, and the journal keeps it."""
+        if self._unwritten is not None:
+            error, self._unwritten = self._unwritten, None
+            raise error
+
     def _emit(self, event: Event) -> None:
         if self.record is not None:
-            self.record(event)
+            try:
+                self.record(event)
+            except UnwrittenError as error:  # kept by the journal: what it says has happened
+                self._unwritten = self._unwritten or error
 
 
 _STATUS = {

@@ -268,3 +268,78 @@ def test_news_make_a_learner_ask_less_once_its_teachers_repeat_themselves(tmp_pa
     asked = requests(news=True)
     assert asked[1] < asked[0] / 2
     assert sum(asked) < sum(requests(news=False)) / 2
+
+
+class Counting(ThrowingArm):
+    """Counts the policies executed; breaks at some of them."""
+
+    def __init__(self, breaks: range) -> None:
+        super().__init__()
+        self.breaks = breaks
+        self.seen: list[bytes] = []
+
+    def execute(self, policy: Any, context: Any = None, rng: Any = None) -> Any:
+        self.seen.append(policy.tobytes())
+        if len(self.seen) in self.breaks:
+            raise OSError("hot")
+        return super().execute(policy, context, rng)
+
+    def execute_batch(self, policies: Any, contexts: Any = None, rngs: Any = None) -> Any:
+        return [self.execute(policy) for policy in policies]
+
+
+@pytest.mark.filterwarnings("ignore:the world failed")
+def test_a_real_world_makes_no_movement_twice(tmp_path: Path) -> None:
+    world = Counting(range(3, 4))
+    with Run(learner(), world, journal=tmp_path / "a.sgim", batch=4, real=True) as run:
+        run.go(8)
+    assert len(set(world.seen)) == len(world.seen)
+
+
+@pytest.mark.filterwarnings("ignore:the world failed")
+def test_what_was_executed_is_told_also_when_the_run_gives_up() -> None:
+    run = Run(learner(), Counting(range(1, 100)), batch=16)
+    with pytest.raises(RunError, match="10 times in a row"):
+        run.go(32)
+    assert run.movements == 16
+    assert run.learner.pending == []
+
+
+@pytest.mark.parametrize("batch", [1, 8])
+def test_going_on_after_a_stop_asks_for_no_more_than_is_left(batch: int) -> None:
+    class Stopping(ThrowingArm):
+        stops = True
+
+        def execute(self, policy: Any, context: Any = None, rng: Any = None) -> Any:
+            if self.stops:
+                raise KeyboardInterrupt
+            return super().execute(policy, context, rng)
+
+        def execute_batch(self, policies: Any, contexts: Any = None, rngs: Any = None) -> Any:
+            return [self.execute(policy) for policy in policies]
+
+    world = Stopping()
+    run = Run(learner(), world, batch=batch)
+    with pytest.raises(KeyboardInterrupt):
+        run.go(batch)
+    world.stops = False
+    run.go(batch)
+    assert run.movements == batch
+
+
+def test_a_request_that_is_out_survives_an_adoption(tmp_path: Path) -> None:
+    path = tmp_path / "a.sgim"
+    with keep_journal(learner("emulation"), path, real=True) as one:
+        shown = Demonstration({"throw": [5.0, 2.0]}, np.full(14, 0.5))
+        one.answer(one.ask(), shown)  # its policy is still out
+        assert one.ask().request is not None
+    with sqlite3.connect(path) as db:  # as another version would have decided
+        db.execute("UPDATE events SET policy = zeroblob(112) WHERE policy NOTNULL")
+        db.execute("UPDATE events SET policy = NULL WHERE event = 'answered'")
+    db.close()
+    kept = keep_journal(learner("emulation"), path, real=True)
+    with kept as again:
+        assert kept.replayed.difference is not None
+        (request,) = again.pending
+        plan = again.answer(request, shown)
+        assert again.tell(plan, {"throw": [5.0, 2.1]}).cost is not None

@@ -21,6 +21,8 @@ class Episode:
         rng: The episode's own stream of random numbers.
         before: Competence for the goal when it was taken up; None without a goal.
         best: The better of ``before`` and what the episode's own trials showed.
+        gained: Competence gained in contexts before the present one, in which ``before`` and
+            ``best`` are measured.
         movements: Trials executed in this episode.
         attempts: Plans resolved in whatever way.
         state: The explorer's own.
@@ -32,6 +34,7 @@ class Episode:
         "best",
         "context",
         "demonstration",
+        "gained",
         "goal",
         "id",
         "movements",
@@ -47,6 +50,7 @@ class Episode:
         self.demonstration: Demonstration | None = None
         self.before: float | None = None
         self.best: float | None = None
+        self.gained = 0.0
         self.movements = 0
         self.attempts = 0
         self.state: Any = None

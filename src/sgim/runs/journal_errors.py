@@ -5,7 +5,7 @@ from __future__ import annotations
 import sqlite3
 from pathlib import Path
 
-from sgim.errors import JournalError
+from sgim.errors import JournalError, UnwrittenError
 
 
 def exists(path: Path) -> JournalError:
@@ -24,9 +24,9 @@ def damaged(path: Path, fault: str) -> JournalError:
     )
 
 
-def unwritten(path: Path, error: sqlite3.Error, events: int) -> JournalError:
+def unwritten(path: Path, error: sqlite3.Error, events: int) -> UnwrittenError:
     """The error for a commit that failed with ``events`` events waiting."""
-    return JournalError(
+    return UnwrittenError(
         f"journal {path}: {error}. {events} {'event is' if events == 1 else 'events are'} not yet "
         f"written and kept in memory: {_advice(error)}, then call commit() again; the next append "
         "tries again too"

@@ -114,6 +114,9 @@ class _Fold:
         self.result.events = len(record)
         self.result.unwritten.extend(self.concluded.values())
         learner.record = self.result.unwritten.append
+        for plan, running in self.ledger.plans.values():
+            # Nothing has begun before the answer, so nothing is missing after it.
+            running.live = running.live or plan.request is not None
         for running in list(self.ledger.running.values()):
             if running.live and self.ledger.waits(running):
                 self._issue_due(running)
@@ -125,10 +128,8 @@ class _Fold:
 
     def _issue_due(self, running: Running) -> None:
         """Give out the plan that the process died before recording."""
-        explorer = running.mode.explorer
-        policy = None if running.must_ask else explorer.propose([running.episode])[0]
         self._count_in_round()
-        self.learner.issue(running, policy)
+        self.learner.issue(running, self.learner.proposed(running))
 
     def _count_in_round(self) -> None:
         if self.after_answer:
@@ -230,9 +231,9 @@ class _Fold:
         mine = self.concluded.pop(event.episode, None)
         if mine is None:
             raise JournalError(f"the journal closes episode {event.episode} twice: it is damaged")
-        ends = [f"{(e.mode, e.before, e.after, e.movements)}" for e in (mine, event)]
+        ends = [(e.mode, e.before, e.after, e.movements) for e in (mine, event)]
         if ends[0] != ends[1]:
-            self._differ(f"the end of episode {event.episode}", *ends)
+            self._differ(f"the end of episode {event.episode}", *map(str, ends))
 
     def _differ(self, what: str, mine: str, recorded: str) -> NoReturn:
         raise MismatchError(

@@ -112,7 +112,7 @@ class Run:
         if evaluate_every < 1 or batch < 1:
             raise SgimError(f"evaluate_every={evaluate_every} and batch={batch} must be 1 or more")
         self.environment = environment
-        self.world = World(environment, self.teachers, Streams(learner.seed))
+        self.world = World(environment, self.teachers, Streams(learner.seed), real=real)
         self.benchmark = benchmark
         self.evaluate_every = evaluate_every
         self.batch = batch
@@ -128,7 +128,9 @@ class Run:
         self.learner = replayed.learner
         self.evaluations = replayed.evaluations
         self.difference = replayed.difference
-        self._unfinished_round = (replayed.round_start, replayed.round_size)
+        self._unfinished_round: tuple[int, int] | None = None
+        if replayed.round_size:
+            self._unfinished_round = (replayed.round_start, replayed.round_size)
 
     @property
     def movements(self) -> int:
@@ -187,11 +189,10 @@ class Run:
         return self.evaluations
 
     def _continue(self, target: int, observer: Observer | None, wish: InterruptWish) -> None:
-        start, asked = self._unfinished_round
-        self._unfinished_round = (0, 0)
         if self.learner.pending and self.movements < target:
-            missing = 0
-            if start == self.movements:
+            start, asked = self._unfinished_round or (0, 0)
+            self._unfinished_round, missing = None, 0
+            if asked and start == self.movements:
                 missing = max(0, min(self.batch, target - start) - asked)
             self._round(missing, observer)
         shown = time.monotonic()
@@ -219,8 +220,14 @@ class Run:
             if plan.request is not None:
                 self._answered(plan)
         plans = learner.pending
+        given_up: RunError | None = None
         for plan, outcome in zip(plans, world.execute_all(plans), strict=True):
-            self._tell(plan, outcome, observer)
+            try:
+                self._tell(plan, outcome, observer)
+            except RunError as error:  # the movements behind it have been made, too
+                given_up = given_up or error
+        if given_up is not None:
+            raise given_up
 
     def _answered(self, plan: Plan) -> Plan:
         assert plan.request is not None

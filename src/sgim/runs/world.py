@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from sgim.environments.base import MinimalEnvironment, draw_context, execute_all
+from sgim.errors import SgimError
 from sgim.records import Demonstration, Outcome, Plan
 from sgim.streams import Streams
 from sgim.teachers import Teacher
@@ -22,14 +23,21 @@ class World:
         teachers: Name → teacher.
         streams: Random streams ``context``, ``environment`` and ``teacher/NAME``, by the numbers
             of plans and requests.
+        real: Whether a movement, once made, must not be made again.
     """
 
     def __init__(
-        self, environment: MinimalEnvironment, teachers: Mapping[str, Teacher], streams: Streams
+        self,
+        environment: MinimalEnvironment,
+        teachers: Mapping[str, Teacher],
+        streams: Streams,
+        *,
+        real: bool = False,
     ) -> None:
         self.environment = environment
         self.teachers = dict(teachers)
         self.streams = streams
+        self.real = real
 
     def contexts(self, first: int, n: int) -> list[Any]:
         """The contexts in which n plans will be made, the first of them number ``first``."""
@@ -56,15 +64,24 @@ class World:
             return error
 
     def execute_all(self, plans: Sequence[Plan]) -> Sequence[Executed]:
-        """Execute several plans' policies at once; one by one if that breaks."""
-        if len(plans) == 1:
-            return [self.execute(plans[0])]
+        """Execute several plans' policies at once, if the world can.
+
+        If that breaks, a simulated world is asked for them one by one; in a real one, nobody
+        knows which movements were made, and all of them have failed.
+        """
         environment = self.environment
+        if len(plans) == 1 or not hasattr(environment, "execute_batch"):
+            return [self.execute(plan) for plan in plans]
         rngs = None
         if not environment.deterministic:
             rngs = [self.streams("environment", plan.id) for plan in plans]
         contexts = [p.context for p in plans] if environment.task.context_space else None
         try:
-            return execute_all(environment, [p.policy for p in plans], contexts, rngs)
-        except Exception:
+            outcomes = execute_all(environment, [p.policy for p in plans], contexts, rngs)
+            if len(outcomes) != len(plans):
+                raise SgimError(f"{len(plans)} policies gave {len(outcomes)} outcomes")
+        except Exception as error:
+            if self.real:
+                return [error] * len(plans)
             return [self.execute(plan) for plan in plans]
+        return outcomes
