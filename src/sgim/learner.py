@@ -151,8 +151,8 @@ class Learner(Transitions, Answers):
                 else:
                     event = self.decide_opening(context)
                     chosen.append((self.open(event), event))
-            policies = _propose([running for running, _ in chosen if not running.must_ask])
-            policies = [self.sealed(policy) for policy in policies]
+            asking = [running for running, _ in chosen if not running.must_ask]
+            policies = self.sealed(_propose(asking)) if asking else []
         except BaseException:
             for running, opening in reversed(chosen):
                 if opening is None:

@@ -7,7 +7,8 @@ a record goes through the same transitions, so that what was learned comes out t
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from contextlib import suppress
 from typing import Any
 
 import numpy as np
@@ -30,6 +31,7 @@ from sgim.outcome.interest import EpisodeReport
 from sgim.policy.explorer import Episode
 from sgim.policy.model import CompetenceModel
 from sgim.records import Demonstration, Goal, Plan, Report, Trial
+from sgim.spaces import Box
 from sgim.strategy.modes import Mode
 from sgim.strategy.strategy import Strategy
 from sgim.streams import Streams
@@ -186,14 +188,18 @@ class Transitions:
         """The policy that an episode's explorer proposes next; None if it must ask first."""
         if running.must_ask:
             return None
-        return self.sealed(running.mode.explorer.propose([running.episode])[0])
+        return self.sealed(running.mode.explorer.propose([running.episode]))[0]
 
-    def sealed(self, policy: Any) -> Any:
-        """A proposed policy, checked, and such that no world can change what is remembered."""
-        policy = self.task.check_policy(policy)
-        if isinstance(policy, np.ndarray):
-            policy.flags.writeable = False
-        return policy
+    def sealed(self, policies: Sequence[Any]) -> list[Any]:
+        """Proposed policies, checked, and such that no world can change what is remembered."""
+        space = self.task.policy_space
+        if isinstance(space, Box):  # all at once: this comes with every plan
+            with suppress(TypeError, ValueError):  # what is malformed is named one by one, below
+                points = np.array(policies, dtype=np.float64)
+                if points.shape[1:] == space.low.shape and space.contains(points):
+                    points.flags.writeable = False
+                    return list(points)
+        return [self.task.check_policy(policy) for policy in policies]
 
     def issue(self, running: Running, policy: Any) -> Plan:
         """Give out an episode's next plan: this policy, or a request if it must ask."""
