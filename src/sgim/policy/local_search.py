@@ -89,7 +89,8 @@ class LocalSearch:
         differential_weight: Largest weight F of the difference.
         differential_block: How many differences are drawn at once.
         least_global: Least probability of a random policy.
-        tolerance: Share of the task's tolerance below which a goal counts as reached.
+        reached_share: An episode has nothing left to gain when its goal is within the task's
+            tolerance and its cost at most this share of what it was before.
     """
 
     def __init__(
