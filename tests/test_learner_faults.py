@@ -135,8 +135,7 @@ def test_progress_is_not_the_luck_of_the_context() -> None:
     learner.record = lambda e: closed.append(e) if isinstance(e, Closed) else None
     learner.observe(Trial(0.5, {"p": 0.5}, 0.0))  # in context 0 the goal is known
     learner.suggest("p", 0.5)
-    for context in (1.0, 0.0, 1.0, 0.0, 1.0):
-        learner.tell(learner.ask(context), {"p": 0.9})
-    assert closed[0].before is not None
-    assert closed[0].after is not None
-    assert closed[0].after - closed[0].before < 0.65  # from 1 to 0.4 in context 1, once
+    learner.tell(learner.ask(1.0), {})  # in context 1 it is not, and nothing is reached
+    while not closed:
+        learner.tell(learner.ask(0.0), {"p": 0.5})
+    assert closed[0].before == closed[0].after
