@@ -10,13 +10,13 @@ import numpy as np
 
 from sgim.errors import SgimError
 from sgim.figures.style import (
-    by_learner,
     kind_colours,
     mode_colours,
     new_figure,
     read_runs,
     tidy,
 )
+from sgim.runs.measured import by_learner
 from sgim.runs.summary import RecordedRun
 from sgim.spaces import FloatArray
 

@@ -11,7 +11,8 @@ import numpy as np
 
 from sgim.errors import SgimError
 from sgim.experiments import EXPERIMENTS
-from sgim.figures.style import MARKERS, OKABE_ITO, by_learner, new_figure, read_runs, tidy
+from sgim.figures.style import MARKERS, OKABE_ITO, new_figure, read_runs, tidy
+from sgim.runs.measured import by_learner
 from sgim.runs.summary import RecordedRun
 from sgim.spaces import FloatArray
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -35,16 +35,6 @@ def read_runs(paths: Iterable[str | Path]) -> list[RecordedRun]:
         names = ", ".join(sorted(str(name) for name in experiments)) or "no journal"
         raise SgimError(f"a figure shows runs of one experiment, but here are {names}")
     return runs
-
-
-def by_learner(runs: Sequence[RecordedRun]) -> dict[str, list[RecordedRun]]:
-    """Runs by the name of their learner, with its configuration where those differ."""
-    several = len({run.configuration for run in runs}) > 1
-    groups: dict[str, list[RecordedRun]] = {}
-    for run in runs:
-        name = run.learner or run.path.stem
-        groups.setdefault(f"{name} ({run.configuration})" if several else name, []).append(run)
-    return dict(sorted(groups.items()))
 
 
 def mode_colours(modes: Iterable[str]) -> dict[str, str]:
