@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import closing
 from dataclasses import dataclass
 from functools import cached_property
@@ -11,11 +11,14 @@ from typing import Any, TypeVar
 
 from sgim.events import Evaluated, Session
 from sgim.runs.codec import unreadable
-from sgim.runs.decoders import evaluated, session
+from sgim.runs.decoders import Stored, evaluated, session
 from sgim.runs.journal_file import open_file
 from sgim.runs.journal_reading import read_header, read_rows
 
-_DECODERS = {"evaluated": evaluated, "session": session}
+_DECODERS: Mapping[str, Callable[[Stored], Evaluated | Session]] = {
+    "evaluated": evaluated,
+    "session": session,
+}
 
 
 @dataclass(frozen=True)
