@@ -29,8 +29,7 @@ def print_comparison(found: Comparison, stream: TextIO) -> None:
         )
         _print_table(_contrast_rows(found.contrasts), stream)
     for note in found.notes:
-        wrapped = textwrap.fill(note, 96, break_long_words=False, break_on_hyphens=False)
-        print("\n" + textwrap.indent(f"note: {wrapped}", "  ")[2:], file=stream)
+        print("\n" + textwrap.fill(f"note: {note}", 98, subsequent_indent="  "), file=stream)
 
 
 def _group_rows(groups: Sequence[Group]) -> list[list[str]]:
@@ -71,7 +70,7 @@ def _interval(estimate: Estimate, sign: str = "") -> str:
     value, low, high = (float(x) for x in (estimate.value, estimate.low, estimate.high))
     if low != low:
         return _number(value, sign)
-    return f"{_number(value, sign)} [{_number(low, sign)}, {_number(high, sign)}]"
+    return f"{_number(value, sign)} [{_number(low)}, {_number(high)}]"
 
 
 def _print_table(rows: Sequence[Sequence[str]], stream: TextIO) -> None:

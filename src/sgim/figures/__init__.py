@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from sgim.figures.choices import choices
+from sgim.figures.choices_by_kind import choices_by_kind
 from sgim.figures.error_curves import error_curves
 from sgim.figures.explored import explored
 
-__all__ = ["choices", "error_curves", "explored"]
+__all__ = ["choices", "choices_by_kind", "error_curves", "explored"]

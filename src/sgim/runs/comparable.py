@@ -126,10 +126,10 @@ def _require_one_benchmark(runs: Sequence[MeasuredRun], kind: str, notes: list[s
     for run in runs:
         if any(kind not in evaluation.errors for evaluation in run.evaluations):
             raise SgimError(f"{run.path} was not measured on {kind!r}; choose another --kind")
-    if unknown_ := [run for run in runs if run.benchmark is None]:
+    if silent := len(runs) - len(known):
         notes.append(
-            "taken to be measured by the same goals, of which there is no record: "
-            f"{_named(unknown_)}"
+            f"{silent} of {len(runs)} journals do not say by which goals their run was measured; "
+            "taken to be the same"
         )
 
 

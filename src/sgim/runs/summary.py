@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -33,6 +33,21 @@ class Openings:
     movements: NDArray[np.int64]
     modes: list[str]
     kinds: list[str | None]
+
+    @classmethod
+    def pooled(cls, several: Iterable[Openings]) -> Openings:
+        """The episodes of several runs together, run by run."""
+        parts = list(several)
+        return cls(
+            np.concatenate([part.movements for part in parts]),
+            [mode for part in parts for mode in part.modes],
+            [kind for part in parts for kind in part.kinds],
+        )
+
+    def of_kind(self, kind: str) -> Openings:
+        """Those whose goal is of one kind."""
+        rows = [i for i, its in enumerate(self.kinds) if its == kind]
+        return Openings(self.movements[rows], [self.modes[i] for i in rows], [kind] * len(rows))
 
     def shares(self, edges: NDArray[np.float64]) -> list[dict[str, dict[str, float]]]:
         """Shares of modes and of goal kinds among the episodes opened in each window.
