@@ -190,7 +190,7 @@ def shown_by(commands: list[str], cwd: Path) -> str:
     return "\n".join(lines) + "\n"
 
 
-@pytest.mark.parametrize("name", ["first-run", "your-own-world"])
+@pytest.mark.parametrize("name", ["first-run", "your-own-world", "comparing"])
 def test_commands_print_what_their_page_shows(
     name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

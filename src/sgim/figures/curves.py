@@ -8,7 +8,6 @@ from typing import Literal
 
 import numpy as np
 
-from sgim.runs.costs import Prices, Spending
 from sgim.runs.summary import RecordedRun
 from sgim.spaces import FloatArray
 from sgim.statistics import interquartile_estimate
@@ -27,7 +26,7 @@ class Curve:
     """A learner's curve; arrays of one length.
 
     Attributes:
-        x: Movements or seconds.
+        x: Movements, or seconds.
         low: Lower edge of the band; NaN where there is none.
         middle: The line.
         high: Upper edge.
@@ -43,8 +42,7 @@ def curve(
     runs: Sequence[RecordedRun],
     kind: str,
     band: Band,
-    spent: Sequence[Spending] | None = None,
-    prices: Prices | None = None,
+    costs: Sequence[FloatArray] | None = None,
 ) -> Curve:
     """The errors of runs of one learner, wherever half of the runs or more were evaluated.
 
@@ -52,13 +50,12 @@ def curve(
         runs: The runs.
         kind: Kind of goal, or ``total``.
         band: What line and band are, a key of `BANDS`.
-        spent: What each run had spent at its evaluations, for a curve over cost: each evaluation
-            is where the runs' mean cost is by then.
-        prices: What was not recorded costs.
+        costs: What each run had cost at each of its evaluations, for a curve over cost: an
+            evaluation is where the runs' mean cost was by then.
     """
     x, errors = _errors(runs, kind)
-    if spent is not None:
-        x = _mean_costs(runs, x, [s.cost(prices or Prices()) for s in spent])
+    if costs is not None:
+        x = _mean_costs(runs, x, costs)
     low, middle, high = np.full((3, len(x)), np.nan)
     missing = np.isnan(errors)
     patterns, which = np.unique(missing, axis=1, return_inverse=True)

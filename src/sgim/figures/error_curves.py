@@ -63,11 +63,7 @@ def error_curves(
     kinds = list(runs[0].evaluations[-1].errors)
     if len(kinds) == 2:
         kinds.remove("total")  # the same as the only kind
-    spent = None
-    if prices is not None:
-        spent = {name: [read_spending(run.path) for run in g] for name, g in groups.items()}
-        if not any(s.recorded or s.asked.any() for members in spent.values() for s in members):
-            raise NothingToDrawError("nobody was asked, and no time is recorded")
+    spent = None if prices is None else _spending(groups)
     labels = [
         name if len(members) == 1 else f"{name} ({len(members)} runs)"
         for name, members in groups.items()
@@ -77,10 +73,12 @@ def error_curves(
     figure = new_figure(width, 3.4 + 0.18 * ceil(len(labels) / columns))
     panels = figure.subplots(1, len(kinds), squeeze=False)[0]
     for panel, kind in zip(panels, kinds, strict=True):
-        curves = [
-            curve(members, kind, band, None if spent is None else spent[name], prices)
-            for name, members in groups.items()
-        ]
+        curves = []
+        for name, members in groups.items():
+            costs = None
+            if spent is not None and prices is not None:
+                costs = [one.cost(prices) for one in spent[name]]
+            curves.append(curve(members, kind, band, costs))
         unit, label = _axis(curves, spent, prices)
         for i, (name, drawn) in enumerate(zip(labels, curves, strict=True)):
             _draw(panel, drawn, unit, name, i)
@@ -102,6 +100,13 @@ def error_curves(
         title_fontsize=_LEGEND_SIZE,
     )
     return figure
+
+
+def _spending(groups: Mapping[str, Sequence[RecordedRun]]) -> dict[str, list[Spending]]:
+    spent = {name: [read_spending(run.path) for run in runs] for name, runs in groups.items()}
+    if not any(one.recorded or one.asked.any() for runs in spent.values() for one in runs):
+        raise NothingToDrawError("nobody was asked, and no time is recorded")
+    return spent
 
 
 def _draw(axes: Axes, drawn: Curve, unit: float, label: str, number: int) -> None:

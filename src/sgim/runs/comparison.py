@@ -86,6 +86,8 @@ def compare(
     """
     if not 0 < margin < 1:
         raise SgimError(f"--margin is {margin}, expected a share between 0 and 1, such as 0.2")
+    if seed < 0:
+        raise SgimError(f"seed is {seed}, expected 0 or more")
     streams = Streams(seed)
     chosen = select(runs, kind, at)
     groups = [_group(name, members, chosen, streams) for name, members in chosen.groups.items()]
