@@ -216,6 +216,13 @@ def test_the_lines_of_the_page_on_journals_read_one(tmp_path: Path) -> None:
         assert output("-c", block, cwd=tmp_path)
 
 
+def test_the_lines_of_the_page_on_comparing_compare(tmp_path: Path) -> None:
+    sweep = "sweep throwing --learners random,sgim-acts --seeds 0-1 --movements 40 --jobs 1"
+    output("-m", "sgim.cli", *sweep.split(), "--out", "runs/short", cwd=tmp_path)
+    (block,) = python_blocks("docs/comparing.md")
+    assert output("-c", block, cwd=tmp_path).startswith("sgim-acts ")
+
+
 def test_the_lines_of_the_page_on_configurations_run(tmp_path: Path) -> None:
     (block,) = python_blocks("docs/configurations.md")
     output("-c", block, cwd=tmp_path)
