@@ -53,7 +53,7 @@ def select(runs: Sequence[MeasuredRun], kind: str, at: int | None) -> Selected:
     """
     notes: list[str] = []
     if not runs:
-        raise SgimError("there is no run to compare")
+        raise SgimError("there is no run to compare; give journals, or directories of journals")
     _require_one_world(runs)
     kept = _evaluated(runs, at, notes)
     _require_one_benchmark(kept, kind, notes)

@@ -92,9 +92,9 @@ def equivalence_p(
 
     Two one-sided tests (Schuirmann 1987): that one is not lower than the other by the margin, and
     not higher; the larger of the two p-values. The tests are Wilcoxon's of the pairs, or Mann and
-    Whitney's. A margin relative to the larger of the two, |a − b| < margin · max(a, b), is
-    the same as a > (1 − margin) b and b > (1 − margin) a, which is tested as it stands, as for
-    ratios in bioequivalence (Hauschke et al. 1999): no margin is estimated from the data.
+    Whitney's. To differ by less than a share of the larger of the two is the same as
+    a > (1 − margin) b and b > (1 − margin) a, which is tested as it stands, as for ratios in
+    bioequivalence (Hauschke et al. 1999): no margin is estimated from the data.
 
     Args:
         one: Shape ``(n,)``.
