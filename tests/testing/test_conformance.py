@@ -8,6 +8,7 @@ import pytest
 
 from sgim.environments import ARMS, Environment, PlanarArm, ThrowingArm, throwing_teachers
 from sgim.memory import Memory
+from sgim.outcome.expected_gain import ExpectedGain
 from sgim.outcome.interest import UniformGoals
 from sgim.outcome.progress import CompetenceChange, InterestMeasure, MeanProgress
 from sgim.outcome.region_tree import RegionTree
@@ -95,6 +96,26 @@ def test_every_region_tree_passes(task: Task, credit: Any, measure: Any) -> None
     check_interest_map(make, task.goal_spaces, list(MODES), context_space=task.context_space)
 
 
+@pytest.mark.parametrize("task", VECTOR_TASKS.values(), ids=VECTOR_TASKS.keys())
+@pytest.mark.parametrize("goals", [1, 3])
+def test_every_map_of_expected_gain_passes(task: Task, goals: int) -> None:
+    def lacks(chosen: Any, context: Any) -> Any:
+        return np.array([task.goal_spaces[g.kind].encode(g.point)[0] for g in chosen])
+
+    def make() -> ExpectedGain:
+        return ExpectedGain(
+            task.goal_spaces,
+            MODES,
+            lacks,
+            Streams(0),
+            context_space=task.context_space,
+            capacity=8,
+            goals=goals,
+        )
+
+    check_interest_map(make, task.goal_spaces, list(MODES), context_space=task.context_space)
+
+
 @NAMED
 def test_uniform_goals_pass(task: Task) -> None:
     spaces = task.goal_spaces
@@ -119,7 +140,7 @@ def test_the_nearest_model_passes(task: Task) -> None:
 EXPLORERS: Mapping[str, Callable[[NearestModel], Explorer]] = {
     "Nelder-Mead": NelderMeadSearch,
     "local search": LocalSearch,
-    "local search, large steps": lambda model: LocalSearch(model, differential_weight=3.0),
+    "local search, large variations": lambda model: LocalSearch(model, variation=(1.0, 30.0)),
     "noise around the nearest": NoisyNearest,
     "noise from the first trial on": lambda model: NoisyNearest(model, bootstrap=0),
     "mimicry": lambda model: Mimicry(model.memory.task.policy_space, 0.3),

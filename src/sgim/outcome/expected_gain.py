@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections import deque
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, NamedTuple
@@ -127,12 +128,12 @@ class ExpectedGain(Partition):
         if mode is None or place is None:
             return
         region = self.region_of(report.chosen.kind, place)
-        usual = float(self._lack[region.leaf]) if region.records else 0.0
-        lack = max(-report.before, usual)
+        lack = -report.before
+        if not self._kept_to(report):
+            lack = max(lack, float(self._lack[region.leaf]) if region.records else 0.0)
         gain = report.after - report.before
         share = gain / (lack * report.movements) if lack > 0 else 0.0
-        found = -report.before if report.pursued is report.chosen else lack
-        region.records.append(Attempt(place, found, share, mode))
+        region.records.append(Attempt(place, lack, share, mode))
         self._recent[region.kind][mode].append(share)
         if len(region.records) > self.capacity:
             cut = self.best_cut(region, region.records, _mean_gain)
@@ -140,44 +141,47 @@ class ExpectedGain(Partition):
                 self._split(region, *cut)
                 return
             del region.records[0]
-        self._estimate(region, mode)
         self._weigh(region)
+
+    def _kept_to(self, report: EpisodeReport) -> bool:
+        """Whether the goal chosen was the one pursued."""
+        chosen, pursued = report.chosen, report.pursued
+        if pursued is chosen:
+            return True
+        return pursued.kind == chosen.kind and np.array_equal(pursued.point, chosen.point)
 
     def _split(self, region: Region, axis: int, cut: float) -> None:
         children = self.divide(region, axis, cut)
         self._reserve()
-        for table in (self._lack, self._shares):
-            table[children[1].leaf] = table[children[0].leaf]
+        self._lack[children[1].leaf] = self._lack[children[0].leaf]
         for attempt in region.records:
             children[attempt.place[axis] > cut].records.append(attempt)
         region.records = []
         for child in children:
-            for mode in range(len(self.modes)):
-                self._estimate(child, mode)
             self._weigh(child)
-
-    def _estimate(self, region: Region, mode: int) -> None:
-        """What is lacking in a region, and the share of it that a movement of a mode removes."""
-        lately = region.records[-self.window :]
-        if lately:
-            self._lack[region.leaf] = sum(a.lack for a in lately) / len(lately)
-        here = [a.share for a in region.records if a.mode == mode][-self.window :]
-        elsewhere = self._recent[region.kind][mode]
-        prior = self._shrunk(elsewhere, self.prior)
-        self._shares[region.leaf, mode] = self._shrunk(here, prior)
 
     def _shrunk(self, shares: Sequence[float] | deque[float], prior: float) -> float:
         return (sum(shares) + self.confidence * prior) / (len(shares) + self.confidence)
 
     def _weigh(self, region: Region) -> None:
-        """Weights of a region's modes: volume times gain, sharpened towards the best mode."""
-        row = region.leaf
-        values = np.maximum(self._shares[row] / self.costs, 0.0)
+        """Estimate what is lacking and the modes' shares; weigh the modes by gain and volume."""
+        row, recent = region.leaf, self._recent[region.kind]
+        lately = region.records[-self.window :]
+        if lately:
+            self._lack[row] = sum(a.lack for a in lately) / len(lately)
+        here: list[list[float]] = [[] for _ in recent]
+        for attempt in region.records:
+            here[attempt.mode].append(attempt.share)
+        shares = self._shares[row]
+        for mode, own in enumerate(here):
+            prior = self._shrunk(recent[mode], self.prior)
+            shares[mode] = self._shrunk(own[-self.window :], prior) if own else prior
+        values = np.maximum(shares / self.costs, 0.0)
         best = float(values.max())
         if best > 0:
             values = values * (values / best) ** (self.sharpness - 1)
         d = self.spaces[region.kind].dimension
-        volume = float(np.prod(region.high[:d] - region.low[:d]))
+        volume = math.prod((region.high[:d] - region.low[:d]).tolist())
         self._weights[row] = values * (volume * float(self._lack[row]))
         self._sums.refresh(self._weights[: len(self.leaves)], row)
 

@@ -13,6 +13,7 @@ from sgim.policy.model import NearestModel
 from sgim.records import Trial
 from sgim.spaces import Box, FloatArray
 
+_BLUR = 0.1  # Policies this much nearer than the farthest, squared, weigh alike: noise.
 _SAME = 1e-20  # Of a squared distance between policies in the unit box.
 
 
@@ -179,8 +180,9 @@ class LocalSearch:
         near = np.argpartition(squares, self.within - 1, axis=1)[:, : self.within]
         squares, apart = squares[every, near], apart[every, near]
         known = np.isfinite(squares)
-        squares[~known] = 1.0
-        weights = known / squares
+        squares = np.where(known, squares, 0.0)
+        reach = squares.max(axis=1)
+        weights = known / (squares + (_BLUR * reach + 1e-300)[:, None])
         effects = keys[every, near] - origin
         weighted = effects * weights[:, :, None]
         gram = effects.transpose(0, 2, 1) @ weighted
@@ -188,10 +190,10 @@ class LocalSearch:
         shares = weighted @ _solved(gram, goals - origin[:, 0])[:, :, None]
         steps = (shares.transpose(0, 2, 1) @ apart)[:, 0]
         lengths = np.einsum("bi,bi->b", steps, steps)
-        reach = (squares * known).max(axis=1)
         steps *= np.sqrt(np.minimum(reach / np.maximum(lengths, 1e-300), 1.0))[:, None]
-        # What a policy's offset of length 1 changes the outcome by, in the mean over these.
-        slopes = np.sqrt(np.einsum("bii->b", gram) / np.maximum(known.sum(axis=1), 1))
+        # How far outcomes lie apart, over how far policies do: the far ones tell, not the noise.
+        changes = np.einsum("bij,bij->bi", effects, effects)
+        slopes = np.sqrt((changes * known).sum(axis=1) / (squares.sum(axis=1) + 1e-300))
         point: FloatArray = start[:, 0] + steps
         for i, (episode, state) in enumerate(zip(episodes, states, strict=True)):
             point[i] += self._variation(episode, state.costs[state.best], float(slopes[i]))
