@@ -70,8 +70,8 @@ class AirHockey(Environment):
     and frictionless, so that the puck does not spin. The mallet is infinitely heavy: it keeps its
     course, and the puck's velocity relative to it is reflected. The mallet moves straight between
     samples taken every 5 ms, which is part of the world: impacts amplify small differences. It
-    passes above borders and obstacle, which are at rest and reflect the puck's velocity. Mallets
-    that lie on the puck at the start do not move it until the two approach each other.
+    passes above borders and obstacle. The obstacle is at rest and reflects the puck's velocity. A
+    mallet that starts above the puck cannot hit it before they have been apart.
 
     - ``hit``: (x in m where the puck meets the top border).
 

@@ -14,7 +14,7 @@ Contact = tuple[float, float, float]
 """Seconds until the contact (infinite if there is none), and the unit normal there, (x, y)."""
 
 NEVER: Contact = (math.inf, 0.0, 0.0)
-# A puck squeezed against the block may be inside of it by rounding: it is met at once.
+# A puck that has just met something may be inside of it by rounding: it can be met again at once.
 _ROUNDING = 1e-9
 
 
@@ -97,7 +97,7 @@ def mallet_contacts(
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
     """When pucks that fly straight meet mallets that move straight from sample to sample.
 
-    A puck that already touches a mallet meets it as soon as they approach each other.
+    A puck that begins beneath a mallet cannot meet it before they have been apart.
 
     Args:
         pucks: Positions and velocities (x, y, vx, vy) at the times ``since``, shape ``(4, n)``.
@@ -128,7 +128,9 @@ def mallet_contacts(
     closing = dx[:, :-1] * wx + dy[:, :-1] * wy
     squares = wx * wx + wy * wy
     under_root = closing * closing - squares * gaps[:, :-1]
-    meets = (closing < 0) & (under_root >= 0) & ((-closing <= squares) | (gaps[:, 1:] <= 0))
+    outside = gaps[:, :-1] >= -_ROUNDING
+    meets = outside & (closing < 0) & (under_root >= 0)
+    meets &= (-closing <= squares) | (gaps[:, 1:] <= 0)
     meets &= np.arange(len(times) - 1) >= now[:, None]
     first = meets.argmax(axis=1)
     at = (rows, first)
