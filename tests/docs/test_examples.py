@@ -253,6 +253,14 @@ def test_the_page_on_demonstrations_shows_refusals_as_they_are(tmp_path: Path) -
         assert str(refused.value) == line.replace("ada.json", str(tmp_path / "ada.json"), 1)
 
 
+def test_the_lines_of_the_page_on_air_hockey_print_and_draw_what_it_shows(tmp_path: Path) -> None:
+    shares, figure = python_blocks("docs/hockey.md")
+    page = (ROOT / "docs/hockey.md").read_text("utf-8")
+    assert output("-c", shares, cwd=tmp_path) in page
+    output("-c", figure, cwd=tmp_path)
+    assert (tmp_path / "hockey.png").read_bytes().startswith(b"\x89PNG")
+
+
 # What tables say.
 
 

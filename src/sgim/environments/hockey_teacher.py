@@ -42,7 +42,7 @@ def select_hits(
 
     The range is cut into ``count`` equal slots. Each slot that was reached gives one trial, at
     random; each other one then takes, from left to right, the trial nearest to its middle that
-    nobody has taken.
+    nobody has taken. No two end at the same place.
 
     Args:
         policies: What was tried, shape ``(n, 14)``.
@@ -54,15 +54,18 @@ def select_hits(
         The policies chosen, shape ``(count, 14)``, in the order of their outcomes.
 
     Raises:
-        TeacherError: If fewer than ``count`` trials ended there.
+        TeacherError: If trials ended at fewer than ``count`` different places there.
     """
     low, high = SHOWN
     hits = np.array([outcome["hit"][0] if "hit" in outcome else np.nan for outcome in outcomes])
     order = rng.permutation(np.flatnonzero((hits >= low) & (hits <= high)))
+    # Learners repeat themselves: of those that end at the same place, the first.
+    _, different = np.unique(hits[order], return_index=True)
+    order = order[np.sort(different)]
     if len(order) < count:
         raise TeacherError(
-            f"{count} hits in [{low}, {high}] are to be chosen, but only {len(order)} trials "
-            "ended there: pass more trials"
+            f"{count} hits in [{low}, {high}] are to be chosen, but trials ended at only "
+            f"{len(order)} different places there: pass more trials"
         )
     width = (high - low) / count
     slots = np.minimum((hits[order] - low) / width, count - 1).astype(np.int64)

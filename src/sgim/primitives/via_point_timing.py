@@ -17,26 +17,27 @@ _LARGEST_EXPONENT = 500.0
 
 
 class Timing(Protocol):
-    """From timing parameters, in s, to the instants of via points.
-
-    Attributes:
-        points: Number of via points.
-        names: Names of the parameters.
-        shortest: Least value of each parameter, in s.
-        longest: Greatest value of each parameter, in s.
-    """
+    """From timing parameters, in s, to the instants of via points."""
 
     @property
-    def points(self) -> int: ...  # noqa: D102
+    def points(self) -> int:
+        """Number of via points."""
+        ...
 
     @property
-    def names(self) -> tuple[str, ...]: ...  # noqa: D102
+    def names(self) -> tuple[str, ...]:
+        """Names of the parameters."""
+        ...
 
     @property
-    def shortest(self) -> float: ...  # noqa: D102
+    def shortest(self) -> float:
+        """Least value of each parameter, in s."""
+        ...
 
     @property
-    def longest(self) -> float: ...  # noqa: D102
+    def longest(self) -> float:
+        """Greatest value of each parameter, in s."""
+        ...
 
     def schedule(self, parameters: FloatArray) -> tuple[FloatArray, FloatArray]:
         """When the via points are passed, and σ of eq. 4.1.
