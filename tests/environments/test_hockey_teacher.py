@@ -77,7 +77,5 @@ def test_of_movements_that_end_at_the_same_place_only_one_is_chosen() -> None:
 
 def test_too_few_hits_are_an_error_that_says_how_many() -> None:
     policies, outcomes = made_up(10)
-    with pytest.raises(
-        TeacherError, match=r"500 hits in \[0.5, 1.0\] .* only \d different"
-    ):
+    with pytest.raises(TeacherError, match=r"500 hits in \[0.5, 1.0\] .* only \d different"):
         select_hits(policies, outcomes, np.random.default_rng(0))
