@@ -19,7 +19,7 @@ _SLACK = 1e-9
 class ViaPoints:
     """Joints that follow a weighted mean of via points, the nearest in time weighing most.
 
-    At time t the position is Σ wᵢ(t) uᵢ / Σ wᵢ(t) with wᵢ(t) = exp(−σ |t − tᵢ|²), i over the
+    At time t the position is Σ wᵢ(t) uᵢ / Σ wᵢ(t) with wᵢ(t) = exp(−σ (t − tᵢ)²), i over the
     via points. (Eq. 3.6 and 4.1 print weights that grow with distance, and one index too many.)
     The movement lasts from the first instant tᵢ to the last; before and after it the joints stand
     still. It need not pass through its via points: the smaller σ, the smoother.
@@ -245,7 +245,7 @@ class ViaPoints:
 
 
 def _weights(moments: FloatArray, instants: FloatArray, sharpness: FloatArray) -> FloatArray:
-    """exp(−σ |t − tᵢ|²), shape ``(points, n, m)``."""
+    """exp(−σ (t − tᵢ)²), shape ``(points, n, m)``."""
     apart = moments - instants.T[:, :, None]
     weights: FloatArray = np.exp(-sharpness[:, None] * (apart * apart))
     return weights
