@@ -192,7 +192,7 @@ def shown_by(commands: list[str], cwd: Path) -> str:
     return "\n".join(lines) + "\n"
 
 
-@pytest.mark.parametrize("name", ["first-run", "your-own-world"])
+@pytest.mark.parametrize("name", ["first-run", "your-own-world", "comparing"])
 def test_commands_print_what_their_page_shows(
     name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -216,6 +216,13 @@ def test_the_lines_of_the_page_on_journals_read_one(tmp_path: Path) -> None:
     output("-m", "sgim.cli", "run", "throwing", "--movements", "400", cwd=tmp_path)
     for block in python_blocks("docs/journal.md"):
         assert output("-c", block, cwd=tmp_path)
+
+
+def test_the_lines_of_the_page_on_comparing_compare(tmp_path: Path) -> None:
+    sweep = "sweep throwing --learners random,sgim-acts --seeds 0-1 --movements 40 --jobs 1"
+    output("-m", "sgim.cli", *sweep.split(), "--out", "runs/short", cwd=tmp_path)
+    (block,) = python_blocks("docs/comparing.md")
+    assert output("-c", block, cwd=tmp_path).startswith("sgim-acts ")
 
 
 def test_the_lines_of_the_page_on_configurations_run(tmp_path: Path) -> None:
