@@ -40,7 +40,7 @@ DRIVERS = ("runs", "experiments", "figures")
 
 LEARNER_CODE = ("memory", "policy", "outcome", "strategy", "learner.py", "configurations.py")
 
-WORLD_NAMES = {"throw", "throwing", "arm", "place"}
+WORLD_NAMES = {"throw", "throwing", "arm", "place", "hockey", "puck", "mallet"}
 
 ORDINARY_WORDS = {("outcome", "place")}
 """Identifiers that are the English word: a region tree's records have a place in the unit box."""

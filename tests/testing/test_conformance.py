@@ -6,7 +6,15 @@ from typing import Any
 import numpy as np
 import pytest
 
-from sgim.environments import ARMS, Environment, PlanarArm, ThrowingArm, throwing_teachers
+from sgim.environments import (
+    ARMS,
+    AirHockey,
+    Environment,
+    PlanarArm,
+    ThrowingArm,
+    hockey_teachers,
+    throwing_teachers,
+)
 from sgim.memory import Memory
 from sgim.outcome.expected_gain import ExpectedGain
 from sgim.outcome.interest import UniformGoals
@@ -32,8 +40,11 @@ from sgim.testing import (
 )
 
 THROWING = ThrowingArm()
+HOCKEY = AirHockey()
 ENVIRONMENTS: dict[str, Environment] = {
     "throwing arm": THROWING,
+    "air hockey": HOCKEY,
+    "air hockey without an obstacle": AirHockey(obstacle=None),
     "arm with noise": PlanarArm(7),
     "arm without noise": PlanarArm(7, noise=0),
     "arm with a varying start": PlanarArm(3, vary_start=True),
@@ -44,6 +55,7 @@ LABELS = Choices(["red", "green", "blue"])
 PLACE = Box([0, 0], [1, 3])
 TASKS = {
     "throwing": THROWING.task,
+    "air hockey": HOCKEY.task,
     "hand": PlanarArm(7).task,
     "hand with a varying start": PlanarArm(3, vary_start=True).task,
     "one joint": PlanarArm(1).task,
@@ -65,6 +77,11 @@ def test_every_environment_passes(environment: Environment) -> None:
 @pytest.mark.parametrize("name", throwing_teachers())
 def test_every_throwing_teacher_passes(name: str) -> None:
     check_teacher(throwing_teachers()[name], THROWING.task)
+
+
+@pytest.mark.parametrize("name", hockey_teachers())
+def test_every_hockey_teacher_passes(name: str) -> None:
+    check_teacher(hockey_teachers()[name], HOCKEY.task)
 
 
 def test_a_teacher_who_always_declines_passes() -> None:

@@ -2,18 +2,23 @@
 
 from sgim.environments.arm import ARMS, PlanarArm
 from sgim.environments.base import Environment, MinimalEnvironment, draw_context, execute_all
-from sgim.environments.benchmark_goals import reachable_goals, throwing_goals
+from sgim.environments.benchmark_goals import hockey_goals, reachable_goals, throwing_goals
+from sgim.environments.hockey import AirHockey
+from sgim.environments.hockey_teacher import hockey_teachers
 from sgim.environments.throwing import ThrowingArm
 from sgim.environments.throwing_teachers import throwing_teachers
 
 __all__ = [
     "ARMS",
+    "AirHockey",
     "Environment",
     "MinimalEnvironment",
     "PlanarArm",
     "ThrowingArm",
     "draw_context",
     "execute_all",
+    "hockey_goals",
+    "hockey_teachers",
     "reachable_goals",
     "throwing_goals",
     "throwing_teachers",

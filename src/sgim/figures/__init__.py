@@ -6,5 +6,6 @@ from sgim.figures.choices import choices
 from sgim.figures.choices_by_kind import choices_by_kind
 from sgim.figures.error_curves import error_curves
 from sgim.figures.explored import explored
+from sgim.figures.hockey_shots import hockey_shots
 
-__all__ = ["choices", "choices_by_kind", "error_curves", "explored"]
+__all__ = ["choices", "choices_by_kind", "error_curves", "explored", "hockey_shots"]
