@@ -120,20 +120,20 @@ class ExpectedGain(Partition):
     def update(self, report: EpisodeReport) -> None:
         """Learn what an episode found lacking where its goal was chosen, and what it gained.
 
-        In emulation the gain is made on what was demonstrated. It counts as a share of what is
-        usually lacking in the region, at least: to emulate what is mastered gains nothing.
+        A gain counts as a share of what is usually lacking in the region, at least: to come still
+        nearer to what is nearly reached gains little, and so does emulating what is mastered.
         """
         mode = self.modes.get(report.mode)
         place = self.place_of(report.chosen, report.context)
         if mode is None or place is None:
             return
         region = self.region_of(report.chosen.kind, place)
-        lack = -report.before
-        if not self._kept_to(report):
-            lack = max(lack, float(self._lack[region.leaf]) if region.records else 0.0)
+        usual = float(self._lack[region.leaf]) if region.records else 0.0
+        lack = max(-report.before, usual)
         gain = report.after - report.before
         share = gain / (lack * report.movements) if lack > 0 else 0.0
-        region.records.append(Attempt(place, lack, share, mode))
+        found = -report.before if _kept_to_its_goal(report) else lack
+        region.records.append(Attempt(place, found, share, mode))
         self._recent[region.kind][mode].append(share)
         if len(region.records) > self.capacity:
             cut = self.best_cut(region, region.records, _mean_gain)
@@ -142,13 +142,6 @@ class ExpectedGain(Partition):
                 return
             del region.records[0]
         self._weigh(region)
-
-    def _kept_to(self, report: EpisodeReport) -> bool:
-        """Whether the goal chosen was the one pursued."""
-        chosen, pursued = report.chosen, report.pursued
-        if pursued is chosen:
-            return True
-        return pursued.kind == chosen.kind and np.array_equal(pursued.point, chosen.point)
 
     def _split(self, region: Region, axis: int, cut: float) -> None:
         children = self.divide(region, axis, cut)
@@ -255,3 +248,11 @@ class ExpectedGain(Partition):
 
 def _mean_gain(attempts: Sequence[Attempt]) -> float:
     return sum(a.lack * a.share for a in attempts) / len(attempts)
+
+
+def _kept_to_its_goal(report: EpisodeReport) -> bool:
+    """Whether the goal chosen was the one pursued; not so in emulation."""
+    chosen, pursued = report.chosen, report.pursued
+    if pursued is chosen:
+        return True
+    return pursued.kind == chosen.kind and np.array_equal(pursued.point, chosen.point)

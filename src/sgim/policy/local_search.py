@@ -14,6 +14,7 @@ from sgim.records import Trial
 from sgim.spaces import Box, FloatArray
 
 _BLUR = 0.1  # Policies this much nearer than the farthest, squared, weigh alike: noise.
+_WIDEST = 1.0  # Of the standard deviation of a varied policy's coordinates in the unit box.
 _SAME = 1e-20  # Of a squared distance between policies in the unit box.
 
 
@@ -104,7 +105,7 @@ class LocalSearch:
         *,
         budget: int = 2,
         within: int = 8,
-        variation: tuple[float, float] = (0.05, 2.0),
+        variation: tuple[float, float] = (0.03, 1.5),
         least_global: float = 0.02,
         reached_share: float = 0.5,
     ) -> None:
@@ -203,10 +204,9 @@ class LocalSearch:
         """A random offset that should change the outcome by some share of the cost."""
         least, most = self.variation
         effect = cost * least * (most / least) ** episode.rng.random()
-        length = min(effect / slope, 1.0) if slope > 0 else 1.0
         dimension = self.space.dimension
         offset: FloatArray = episode.rng.standard_normal(dimension)
-        offset *= length / math.sqrt(dimension)
+        offset *= min(effect / (slope * math.sqrt(dimension) + 1e-300), _WIDEST)
         return offset
 
     def learn(self, episode: Episode, trial: Trial, competence: float | None) -> None:
