@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass
-from typing import Any, Literal
+from dataclasses import asdict, dataclass, replace
+from typing import Any, Literal, get_args, get_type_hints
 
-from sgim.errors import unknown
+from sgim.errors import SettingError, unknown
 from sgim.outcome.progress import InterestMeasure, MeanProgress
 from sgim.task import Task
 
@@ -101,18 +102,54 @@ CONFIGURATIONS = {c.name: c for c in (THESIS, MODERN)}
 
 
 def configuration_of(given: str | Configuration | Mapping[str, Any]) -> Configuration:
-    """A configuration by name, as it is, or from what its ``describe`` gave."""
+    """A configuration by name, as it is, or from what its ``describe`` gave.
+
+    Args:
+        given: A name may be followed by settings that differ, as in
+            ``"modern,social_cost=20,news=false"``; the whole is the new configuration's name.
+
+    Raises:
+        UnknownNameError: If there is no such configuration or setting.
+        SettingError: If a setting is not of the form ``name=value``, or its value not of the
+            setting's type.
+    """
     if isinstance(given, Configuration):
         return given
     if isinstance(given, str):
-        if given not in CONFIGURATIONS:
-            raise unknown("configuration", given, CONFIGURATIONS)
-        return CONFIGURATIONS[given]
+        base, *settings = (part.strip() for part in given.split(","))
+        if base not in CONFIGURATIONS:
+            raise unknown("configuration", base, CONFIGURATIONS)
+        configuration = CONFIGURATIONS[base]
+        changes = dict(_setting(configuration, text) for text in settings)
+        if not changes:
+            return configuration
+        return replace(configuration, **changes, name=",".join([base, *settings]))
     known = Configuration.__dataclass_fields__
     for key in given:
         if key not in known:
             raise unknown("setting of a configuration", key, known)
     return Configuration(**{**given, "goal_rules": tuple(given["goal_rules"])})
+
+
+def _setting(configuration: Configuration, text: str) -> tuple[str, Any]:
+    """Name and value of ``name=value``; the value is written as in JSON, text without quotes."""
+    name, equals, written = (part.strip() for part in text.partition("="))
+    apart = ("name", "goal_rules")  # The rules are three numbers, with commas between.
+    known = [field for field in Configuration.__dataclass_fields__ if field not in apart]
+    if name not in known:
+        raise unknown("setting of a configuration", name, known)
+    present = getattr(configuration, name)
+    try:
+        value = json.loads(written)
+    except json.JSONDecodeError:
+        value = written
+    if isinstance(present, float) and type(value) is int:
+        value = float(value)
+    choices = get_args(get_type_hints(Configuration)[name])
+    if not equals or type(value) is not type(present) or (choices and value not in choices):
+        expected = " or ".join(choices) if choices else f"a value such as {json.dumps(present)}"
+        raise SettingError(f"{name} is set by {text!r}, expected {name}= and {expected}")
+    return name, value
 
 
 __all__ = ["CONFIGURATIONS", "Configuration", "configuration_of"]

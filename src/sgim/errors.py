@@ -26,6 +26,10 @@ class UnknownNameError(SgimError, ValueError):
     """A name is not one of those known; the message names the nearest."""
 
 
+class SettingError(SgimError, ValueError):
+    """A setting has a value that it cannot have."""
+
+
 class JournalError(SgimError):
     """A journal cannot be read, written, or continued."""
 

@@ -6,7 +6,11 @@ from sgim.environments.benchmark_goals import hockey_goals, reachable_goals, thr
 from sgim.environments.hockey import AirHockey
 from sgim.environments.hockey_teacher import hockey_teachers
 from sgim.environments.throwing import ThrowingArm
-from sgim.environments.throwing_teachers import throwing_teachers
+from sgim.environments.throwing_teachers import (
+    crowded_teachers,
+    partial_teachers,
+    throwing_teachers,
+)
 
 __all__ = [
     "ARMS",
@@ -18,7 +22,9 @@ __all__ = [
     "draw_context",
     "execute_all",
     "hockey_goals",
+    "crowded_teachers",
     "hockey_teachers",
+    "partial_teachers",
     "reachable_goals",
     "throwing_goals",
     "throwing_teachers",

@@ -35,12 +35,15 @@ class ThrowingArm(Environment):
 
     Outcomes may lie outside their boxes: strong throws do.
 
+    Args:
+        tolerance: Factor of the distances within which goals count as reached.
+
     Attributes:
         task: 14 policy parameters; the outcomes ``throw`` and ``place``.
         deterministic: True.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, tolerance: float = 1.0) -> None:
         primitive = PiecewiseAcceleration(segments=7, max_acceleration=5.0, max_duration=1.0)
         self.deterministic = True
         self.task = Task(
@@ -50,7 +53,7 @@ class ThrowingArm(Environment):
                 "place": Box([-np.pi], [np.pi], names=("angle",), unit="rad"),
             },
             primitive=primitive,
-            tolerances={"throw": 0.01, "place": 0.002},
+            tolerances={"throw": 0.01 * tolerance, "place": 0.002 * tolerance},
             sizes={"throw": 6, "place": 1},
         )
 

@@ -39,6 +39,47 @@ def throwing_teachers(demonstrations: int = 10) -> dict[str, Teacher]:
     }
 
 
+def crowded_teachers(useless: int = 7) -> dict[str, Teacher]:
+    """The three teachers, and as many more who are of no use.
+
+    Each of these shows ten throws that random movements make, so nothing that is hard to find,
+    and is misread: the learner perceives every acceleration with the opposite sign.
+    """
+    arm = ThrowingArm()
+    box = arm.task.outcome_spaces["throw"]
+    teachers = throwing_teachers()
+    for number in range(1, useless + 1):
+        rng = np.random.default_rng([number])
+        policies = np.array([arm.task.policy_space.sample(rng) for _ in range(60)])
+        shown = [
+            demonstration
+            for demonstration in _demonstrations(policies, arm.execute_batch(policies))
+            if "throw" in demonstration.outcome and box.contains(demonstration.outcome["throw"])
+        ]
+        teachers[f"U{number}"] = CorrespondenceError(DemonstrationSet(shown[:10], arm.task), mirror)
+    return teachers
+
+
+def partial_teachers() -> dict[str, Teacher]:
+    """The three teachers, each knowing but a part: throws forwards, angles on one side."""
+    task = ThrowingArm().task
+    throws = [d for d in throwing_demonstrations() if d.outcome["throw"][0] > 0]
+    angles = [d for d in placing_demonstrations() if d.outcome["place"][0] > 0]
+    placing = DemonstrationSet(angles, task)
+    return {
+        "T1": DemonstrationSet(throws, task),
+        "T2": placing,
+        "T3": CorrespondenceError(placing, misread),
+    }
+
+
+def mirror(policy: FloatArray) -> FloatArray:
+    """The policy with the signs of all its accelerations flipped."""
+    perceived = np.array(policy, dtype=np.float64)
+    perceived[::2] *= -1
+    return perceived
+
+
 def placing_demonstrations(count: int = 10) -> list[Demonstration]:
     """Movements that come to rest at ``count`` angles spread evenly over the circle.
 

@@ -32,6 +32,7 @@ class Experiment:
         make_teachers: Makes the teachers.
         unit: Unit of the benchmark's errors.
         movements: How many movements a run has by default.
+        variant_of: Name of the experiment of which this is a variant, if it is one.
     """
 
     name: str
@@ -42,6 +43,7 @@ class Experiment:
     make_teachers: Callable[[], Mapping[str, Teacher]] = dict
     unit: str = "share of the outcome space"
     movements: int = 8000
+    variant_of: str | None = None
 
     @property
     def default_learner(self) -> str:

@@ -6,20 +6,15 @@ from functools import partial
 
 from sgim.environments.arm import ARMS, PlanarArm
 from sgim.environments.base import MinimalEnvironment
-from sgim.environments.benchmark_goals import hockey_goals, reachable_goals, throwing_goals
+from sgim.environments.benchmark_goals import hockey_goals, reachable_goals
 from sgim.environments.hockey import AirHockey
 from sgim.environments.hockey_teacher import hockey_teachers
-from sgim.environments.throwing import ThrowingArm
-from sgim.environments.throwing_teachers import throwing_teachers
 from sgim.errors import unknown
 from sgim.experiments.experiment import Experiment
+from sgim.experiments.throwing import THROWING, THROWING_VARIANTS
 from sgim.runs.benchmark import Benchmark
 
 DEFAULT_ARM = "7-tight"
-
-
-def _throwing_benchmark(environment: MinimalEnvironment) -> Benchmark:
-    return Benchmark(throwing_goals(), environment)
 
 
 def _hockey_benchmark(environment: MinimalEnvironment) -> Benchmark:
@@ -44,19 +39,6 @@ def _arm(name: str) -> Experiment:
     )
 
 
-THROWING = Experiment(
-    name="throwing",
-    summary="Throw a ball as far and as high as asked, or place it at an angle (chapter 4.3).",
-    environment=ThrowingArm,
-    benchmark=_throwing_benchmark,
-    teachers={
-        "T1": "throws, from what a learner found by itself",
-        "T2": "places at 10 angles, and is copied well",
-        "T3": "places as T2 does, but is misread by who copies it",
-    },
-    make_teachers=throwing_teachers,
-)
-
 HOCKEY = Experiment(
     name="hockey",
     summary="Hit a puck so that it meets the far border at a given place (section 4.2.2).",
@@ -66,7 +48,9 @@ HOCKEY = Experiment(
     make_teachers=hockey_teachers,
 )
 
-EXPERIMENTS = {e.name: e for e in [THROWING, HOCKEY, *(_arm(name) for name in ARMS)]}
+EXPERIMENTS = {
+    e.name: e for e in [THROWING, *THROWING_VARIANTS, HOCKEY, *(_arm(name) for name in ARMS)]
+}
 
 
 def experiment(name: str) -> Experiment:

@@ -16,12 +16,14 @@ def command() -> None:
     rows = []
     for experiment in EXPERIMENTS.values():
         rows.append([experiment.name, experiment.summary])
-        rows += [["", f"teacher {name}: {line}"] for name, line in experiment.teachers.items()]
+        if experiment.variant_of is None:
+            rows += [["", f"teacher {name}: {line}"] for name, line in experiment.teachers.items()]
     print("experiments\n" + table(rows))
     rows = [[name, _first_line(make.__doc__)] for name, make in ALGORITHMS.items()]
     print("\nlearners\n" + table(rows))
     rows = [[name, _described(c)] for name, c in CONFIGURATIONS.items()]
     print("\nconfigurations\n" + table(rows))
+    print("Settings that differ are added, as in --configuration modern,social_cost=20")
     print("\nTry: sgim run throwing --learner mimicry --teacher T1 --configuration thesis")
 
 
