@@ -148,6 +148,16 @@ class Box:
                 )
         return point
 
+    def check_all(self, values: Sequence[Any], what: str = "value") -> list[FloatArray]:
+        """As `check` for each of several values, all at once."""
+        try:
+            points = np.array(values, dtype=np.float64)
+        except (TypeError, ValueError):  # what is malformed is named one by one, below
+            points = np.empty(0)
+        if points.shape[1:] == self._shape and _all(np.abs(points) <= _LARGEST):
+            return list(points)
+        return [self.check(value, what) for value in values]
+
     def _expected(self) -> str:
         parts = [
             n if u is None else f"{n} {u}" for n, u in zip(self.names, self.units, strict=True)
@@ -156,8 +166,11 @@ class Box:
         return f"{self._shape}: ({', '.join(shown)})"
 
     def contains(self, point: FloatArray) -> bool:
-        """Whether the point lies within the bounds, borders included."""
-        return bool((point >= self.low).all() and (point <= self.high).all())
+        """Whether the point lies within the bounds, borders included.
+
+        Of an array of points, shape ``(..., d)``, whether all do.
+        """
+        return _all(point >= self.low) and _all(point <= self.high)
 
     def clip(self, point: FloatArray) -> FloatArray:
         """The nearest point within the bounds."""
@@ -200,6 +213,11 @@ class Box:
 
     def __repr__(self) -> str:
         return f"Box({self.low.tolist()}, {self.high.tolist()}, names={list(self.names)})"
+
+
+def _all(truths: NDArray[np.bool_]) -> bool:
+    """Whether all are true; ``truths.all()`` takes three times as long for a few."""
+    return bool(truths.item(truths.argmin()))
 
 
 class Choices:

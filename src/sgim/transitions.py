@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Callable, Sequence
-from contextlib import suppress
 from typing import Any
 
 import numpy as np
@@ -194,11 +193,13 @@ class Transitions:
         """Proposed policies, checked, and such that no world can change what is remembered."""
         space = self.task.policy_space
         if isinstance(space, Box):  # all at once: this comes with every plan
-            with suppress(TypeError, ValueError):  # what is malformed is named one by one, below
+            try:
                 points = np.array(policies, dtype=np.float64)
-                if points.shape[1:] == space.low.shape and space.contains(points):
-                    points.flags.writeable = False
-                    return list(points)
+            except (TypeError, ValueError):  # what is malformed is named one by one, below
+                points = np.empty(0)
+            if points.shape[1:] == space.low.shape and space.contains(points):
+                points.flags.writeable = False
+                return list(points)
         return [self.task.check_policy(policy) for policy in policies]
 
     def issue(self, running: Running, policy: Any) -> Plan:

@@ -40,6 +40,12 @@ class PointColumn:
             return self._vectors.rows[row].copy()
         return self._objects[row]
 
+    def points(self, rows: IntArray) -> list[Any]:
+        """The points of several rows."""
+        if self._vectors is not None:
+            return list(self._vectors.rows[rows])
+        return [self._objects[row] for row in rows.tolist()]
+
     def encoded(self, rows: IntArray | slice) -> FloatArray:
         """Points of these rows scaled to the unit box, shape ``(n, dimension)``."""
         if self._box is not None and self._vectors is not None:
