@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
@@ -18,22 +18,23 @@ IntArray = NDArray[np.int64]
 
 
 class PointColumn:
-    """The points of one space, in order: rows of numbers for a box, objects for other spaces."""
+    """The points of one space, in order: rows of numbers for a box, objects for other spaces.
 
-    __slots__ = ("_box", "_objects", "_vectors", "space")
+    Attributes:
+        space: The space.
+        append: Adds a checked point.
+    """
+
+    __slots__ = ("_box", "_objects", "_vectors", "append", "space")
 
     def __init__(self, space: Space) -> None:
         self.space = space
         self._box = space if isinstance(space, Box) else None
         self._vectors = Column(space.dimension or 0, np.float64) if self._box else None
         self._objects: list[Any] = []
-
-    def append(self, point: Any) -> None:
-        """Add a checked point."""
-        if self._vectors is not None:
-            self._vectors.append(point)
-        else:
-            self._objects.append(point)
+        self.append: Callable[[Any], None] = (
+            self._objects.append if self._vectors is None else self._vectors.append
+        )
 
     def __getitem__(self, row: int) -> Any:
         if self._vectors is not None:
@@ -49,7 +50,9 @@ class PointColumn:
     def encoded(self, rows: IntArray | slice) -> FloatArray:
         """Points of these rows scaled to the unit box, shape ``(n, dimension)``."""
         if self._box is not None and self._vectors is not None:
-            return self._box.encode(self._vectors.rows[rows])
+            points = self._vectors.rows
+            some = points[rows] if isinstance(rows, slice) else points.take(rows, axis=0)
+            return self._box.encode(some)
         chosen = (
             self._objects[rows] if isinstance(rows, slice) else [self._objects[i] for i in rows]
         )
@@ -75,6 +78,8 @@ class KindMemory:
     def __init__(
         self, outcome_space: Space, context_space: Space | None, policies: PointColumn
     ) -> None:
+        self.space = outcome_space
+        self.context_space = context_space
         self.dimension = outcome_space.dimension
         self.outcomes = PointColumn(outcome_space)
         self.trials = Column(0, np.int64)
@@ -87,12 +92,19 @@ class KindMemory:
     def __len__(self) -> int:
         return len(self.trials)
 
-    def append(self, trial: int, outcome: Any, key: FloatArray | None) -> None:
+    def append(self, trial: int, outcome: Any, context: Any) -> None:
         """Add the trial of this number, its outcome of this kind, and its key if it has one."""
         self.trials.append(trial)
         self.outcomes.append(outcome)
-        if key is not None:
-            self.keys.append(key)
+        if self.dimension is not None:
+            self.keys.append(self.key(outcome, context))
+
+    def key(self, point: Any, context: Any) -> FloatArray:
+        """The key of an outcome or goal of this kind in this context."""
+        vector = self.space.encode(point)
+        if self.context_space is None:
+            return vector
+        return np.concatenate((vector, self.context_space.encode(context)))
 
     def nearest(self, key: FloatArray, k: int) -> tuple[FloatArray, IntArray]:
         """The k rows with the nearest keys.
@@ -119,7 +131,10 @@ class KindMemory:
 
     def encoded_policies(self, rows: IntArray | slice) -> FloatArray:
         """The policies of these rows scaled to the unit box, shape ``(n, policy dimension)``."""
-        return self._policies.encoded(self.trials.rows[rows])
+        trials = self.trials.rows
+        return self._policies.encoded(
+            trials[rows] if isinstance(rows, slice) else trials.take(rows)
+        )
 
     def _index_new(self) -> None:
         known = len(self._index)
@@ -154,18 +169,13 @@ class Memory:
         if self._contexts is not None:
             self._contexts.append(trial.context)
         for kind, point in trial.outcome.items():
-            memory = self.kinds[kind]
-            key = None if memory.dimension is None else self.key(kind, point, trial.context)
-            memory.append(number, point, key)
+            self.kinds[kind].append(number, point, trial.context)
         self._length = number + 1
         return number
 
     def key(self, kind: str, point: Any, context: Any) -> FloatArray:
         """The key of an outcome or goal of this kind in this context (see `KindMemory`)."""
-        vector = self.task.outcome_spaces[kind].encode(point)
-        if self.task.context_space is None:
-            return vector
-        return np.concatenate((vector, self.task.context_space.encode(context)))
+        return self.kinds[kind].key(point, context)
 
     def keys(self, kind: str, points: Sequence[Any], contexts: Sequence[Any]) -> FloatArray:
         """The keys of many outcomes or goals of a kind, shape ``(n, key dimension)``."""

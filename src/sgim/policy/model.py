@@ -91,8 +91,7 @@ class NearestModel:
         if kind not in trial.outcome:
             return None
         if trial is self._last:
-            last: FloatArray = self.memory.kinds[kind].keys.rows[-1]
-            return last
+            return self.memory.kinds[kind].keys.last
         return self.memory.key(kind, trial.outcome[kind], trial.context)
 
     def nearest(self, goal: Goal, context: Any) -> tuple[FloatArray, IntArray]:
@@ -116,7 +115,7 @@ class NearestModel:
         if key is None:
             return -1.0
         difference = key - self.goal_key(goal, context)
-        return -min(1.0, math.sqrt(difference @ difference))
+        return -min(1.0, math.sqrt(difference.dot(difference)))
 
     def best_policy(self, goal: Goal, context: Any) -> Any:
         """The policy of the nearest remembered outcome."""
