@@ -152,7 +152,7 @@ class Learner(Transitions, Answers):
                     event = self.decide_opening(context)
                     chosen.append((self.open(event), event))
             asking = [running for running, _ in chosen if not running.must_ask]
-            policies = self.sealed(_propose(asking)) if asking else []
+            policies = self.all_sealed(_propose(asking)) if asking else []
         except BaseException:
             for running, opening in reversed(chosen):
                 if opening is None:

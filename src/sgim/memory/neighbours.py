@@ -72,6 +72,13 @@ def _bound_on_smallest(values: FloatArray, k: int) -> float:
     return float(np.partition(values, k - 1)[k - 1])
 
 
+def _sorted(squares: FloatArray, indices: IndexArray, k: int) -> Neighbours:
+    """The k nearest, given squared distances of points whose indices ascend."""
+    distances = np.sqrt(squares)  # Unequal squares can have equal roots.
+    order = distances.argsort(kind="stable")[:k]  # Stable: of equally distant ones the oldest.
+    return distances[order], indices[order]
+
+
 def _group_equal(points: FloatArray) -> tuple[IndexArray, IndexArray]:
     """An order of the rows that puts equal ones together, ascending, and each group's start."""
     # Sorting hashes is faster than sorting rows; a collision may split a group, costing time.
@@ -255,23 +262,21 @@ class NearestNeighbours:
         """The k nearest, or those within ``reach`` if fewer, of the newest and of ``parts``."""
         newest = self._count - self._in_trees
         squares = _squared_distances(self._buffer[:, :newest], point)
-        older = 0
-        if parts:
-            candidates = np.concatenate(parts)
-            candidates.sort()
-            older = len(candidates)
-            apart = _squared_distances(self._storage[candidates].T, point)
-            squares = np.concatenate((apart, squares))
-        limit = reach * reach if reach < math.inf else _bound_on_smallest(squares, k)
-        near = (squares <= limit * _SLACK).nonzero()[0]  # Unequal squares can have equal roots.
-        distances = np.sqrt(squares[near])
-        indices = near + (self._in_trees - older)
-        if older:
-            split = near.searchsorted(older)
-            indices[:split] = candidates[near[:split]]
-        # Indices ascend, so that a stable sort leaves equally distant points in their order.
-        order = distances.argsort(kind="stable")[:k]
-        return distances[order], indices[order]
+        if not parts:
+            limit = reach * reach if reach < math.inf else _bound_on_smallest(squares, k)
+            near = (squares <= limit * _SLACK).nonzero()[0]
+            return _sorted(squares[near], near + self._in_trees, k)
+        older = np.concatenate(parts)
+        older.sort()
+        apart = _squared_distances(self._storage.take(older, axis=0).T, point)
+        if reach < math.inf:
+            limit = reach * reach
+        else:  # The few from trees bound the k-th nearest well, unless they are fewer than k.
+            few = apart if len(apart) >= k else np.concatenate((apart, squares))
+            limit = _bound_on_smallest(few, k)
+        near, kept = (squares <= limit * _SLACK).nonzero()[0], apart <= limit * _SLACK
+        squares = np.concatenate((apart[kept], squares[near]))
+        return _sorted(squares, np.concatenate((older[kept], near + self._in_trees)), k)
 
     def _merge(self) -> None:
         """Move the newest points into a tree, with the trees too small to stay beside it."""
