@@ -20,6 +20,7 @@ from sgim.errors import SpaceError, unknown
 
 FloatArray = NDArray[np.float64]
 
+_LITTLE_ENDIAN = np.dtype("<f8")
 _LARGEST = 1e100  # Of a coordinate's magnitude: squares of scaled differences must not overflow.
 
 
@@ -195,11 +196,11 @@ class Box:
 
     def pack(self, point: FloatArray) -> bytes:
         """Little-endian float64 bytes."""
-        return point.astype("<f8", copy=False).tobytes()
+        return point.astype(_LITTLE_ENDIAN, copy=False).tobytes()
 
     def unpack(self, data: bytes) -> FloatArray:
         """The vector that was packed."""
-        return np.frombuffer(data, dtype="<f8").astype(np.float64)
+        return np.frombuffer(data, _LITTLE_ENDIAN).astype(np.float64)
 
     def describe(self) -> dict[str, Any]:
         """Bounds, names and units."""

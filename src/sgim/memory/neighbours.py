@@ -67,9 +67,12 @@ def _bound_on_smallest(values: FloatArray, k: int) -> float:
         return math.inf
     # If k groups have a minimum <= b, k values are <= b; minima cost less than selection.
     if (group := len(values) // (8 * k)) > 1:
-        values = values[: len(values) // group * group].reshape(group, -1)
-        values = np.minimum.reduce(values, axis=0)
-    return float(np.partition(values, k - 1)[k - 1])
+        groups = values[: len(values) // group * group].reshape(group, -1)
+        values = np.minimum.reduce(groups, axis=0)
+    else:
+        values = values.copy()
+    values.partition(k - 1)
+    return float(values[k - 1])
 
 
 def _sorted(squares: FloatArray, indices: IndexArray, k: int) -> Neighbours:
