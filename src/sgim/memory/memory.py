@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -18,23 +18,19 @@ IntArray = NDArray[np.int64]
 
 
 class PointColumn:
-    """The points of one space, in order: rows of numbers for a box, objects for other spaces.
+    """The points of one space, in order: rows of numbers for a box, objects for other spaces."""
 
-    Attributes:
-        space: The space.
-        append: Adds a checked point.
-    """
-
-    __slots__ = ("_box", "_objects", "_vectors", "append", "space")
+    __slots__ = ("_box", "_objects", "_vectors", "space")
 
     def __init__(self, space: Space) -> None:
         self.space = space
         self._box = space if isinstance(space, Box) else None
         self._vectors = Column(space.dimension or 0, np.float64) if self._box else None
         self._objects: list[Any] = []
-        self.append: Callable[[Any], None] = (
-            self._objects.append if self._vectors is None else self._vectors.append
-        )
+
+    def append(self, point: Any) -> None:
+        """Add a checked point."""
+        (self._objects if self._vectors is None else self._vectors).append(point)
 
     def __getitem__(self, row: int) -> Any:
         if self._vectors is not None:
