@@ -12,7 +12,7 @@ import pytest
 ROOT = Path(__file__).parent.parent
 PACKAGE = ROOT / "src" / "sgim"
 
-WORDS = {"errors", "spaces", "records", "streams", "task"}
+WORDS = {"errors", "frozen", "spaces", "records", "streams", "task"}
 """The words of the domain, and what everything may use."""
 
 SPINE = (

@@ -91,8 +91,7 @@ class NearestModel:
         if kind not in trial.outcome:
             return None
         if trial is self._last:
-            last: FloatArray = self.memory.kinds[kind].keys.rows[-1]
-            return last
+            return self.memory.kinds[kind].keys.last
         return self.memory.key(kind, trial.outcome[kind], trial.context)
 
     def nearest(self, goal: Goal, context: Any) -> tuple[FloatArray, IntArray]:
@@ -130,14 +129,15 @@ class NearestModel:
         if key is None:
             return -1.0
         difference = key - self.goal_key(goal, context)
-        return -min(1.0, math.sqrt(difference @ difference))
+        return -min(1.0, math.sqrt(difference.dot(difference)))
 
     def best_policy(self, goal: Goal, context: Any) -> Any:
         """The policy of the nearest remembered outcome."""
         _, rows = self.nearest(goal, context)
         if not len(rows):
             raise NoAnswerError(f"no trial has produced an outcome of kind {goal.kind!r} yet")
-        return self._policy(goal.kind, int(rows[0]))
+        trials = self.memory.kinds[goal.kind].trials
+        return self.memory.policies[int(trials.rows[rows[0]])]
 
     def best_policies(self, goals: Sequence[Goal], contexts: Sequence[Any]) -> list[Any]:
         """The policies of the nearest remembered outcomes, by one query for all goals."""
@@ -149,10 +149,7 @@ class NearestModel:
             return [None] * len(goals)
         keys = self.memory.keys(kind, [goal.point for goal in goals], contexts)
         _, rows = memory.nearest_batch(keys, 1)
-        return [self._policy(kind, int(row)) for row in rows[:, 0]]
-
-    def _policy(self, kind: str, row: int) -> Any:
-        return self.memory.policies[int(self.memory.kinds[kind].trials.rows[row])]
+        return self.memory.policies.points(memory.trials.rows[rows[:, 0]])
 
     def solve(self, goal: Goal, context: Any) -> Solution:
         """The nearest trial, how much its outcome scatters, and whether the goal is near enough.
