@@ -3,12 +3,14 @@
 from sgim.environments.arm import ARMS, PlanarArm
 from sgim.environments.base import Environment, MinimalEnvironment, draw_context, execute_all
 from sgim.environments.benchmark_goals import reachable_goals, throwing_goals
+from sgim.environments.fishing import FishingRod
 from sgim.environments.throwing import ThrowingArm
 from sgim.environments.throwing_teachers import throwing_teachers
 
 __all__ = [
     "ARMS",
     "Environment",
+    "FishingRod",
     "MinimalEnvironment",
     "PlanarArm",
     "ThrowingArm",
