@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any, Literal
 
 import numpy as np
@@ -22,6 +22,9 @@ class Benchmark:
         environment: Where policies are executed; noiseless, to measure the policy itself.
         distance: ``"scaled"``: in the unit box, at most 1 (the thesis's measure); ``"metric"``:
             in the outcome's own units. A goal whose kind was not produced costs 1.
+        origins: Kind → the outcome of doing nothing. For these kinds the relative error of
+            eq. 3.8 is given as well: the distance over that from the origin to the goal, at
+            most 1.
     """
 
     def __init__(
@@ -29,26 +32,48 @@ class Benchmark:
         goals: Sequence[Goal],
         environment: MinimalEnvironment,
         distance: Literal["scaled", "metric"] = "scaled",
+        origins: Mapping[str, Any] | None = None,
     ) -> None:
         self.environment = environment
         self.distance = distance
         self.goals: dict[str, list[Any]] = {}
         for goal in goals:
             self.goals.setdefault(goal.kind, []).append(goal.point)
+        self._ways = {
+            kind: self._apart(kind, self.goals[kind], [origin] * len(self.goals[kind]))
+            for kind, origin in (origins or {}).items()
+        }
 
     def evaluate(self, learner: Learner, streams: Streams, index: int) -> dict[str, float]:
         """Mean error per goal kind, and ``total``, the mean of the kinds.
+
+        For kinds with an origin there is ``KIND relative`` too, which does not count in the total.
 
         Args:
             learner: Whose best policies are executed.
             streams: For contexts and for a world with noise, ``evaluation/…``.
             index: Number of the evaluation: the movements made before it.
         """
-        errors = {
-            kind: float(np.mean(self.distances(learner, kind, streams, index)))
-            for kind in self.goals
-        }
-        return {**errors, "total": float(np.mean(list(errors.values())))}
+        errors: dict[str, float] = {}
+        means = []
+        for kind in self.goals:
+            distances = self.distances(learner, kind, streams, index)
+            means.append(float(np.mean(distances)))
+            errors[kind] = means[-1]
+            if kind in self._ways:
+                errors[f"{kind} relative"] = float(np.mean(self.relative(kind, distances)))
+        return {**errors, "total": float(np.mean(means))}
+
+    def relative(self, kind: str, distances: FloatArray) -> FloatArray:
+        """Costs of eq. 3.8, in [0, 1]: distances over those from the origin to the goals.
+
+        Args:
+            kind: A kind with an origin.
+            distances: Of all its goals, as `distances` gives them, shape ``(n,)``.
+        """
+        # A goal at the origin itself: any distance at all is as far as it can be.
+        ways = np.maximum(self._ways[kind], 1e-12)
+        return np.asarray(np.minimum(distances / ways, 1.0))
 
     def distances(self, learner: Learner, kind: str, streams: Streams, index: int) -> FloatArray:
         """The error of each goal of one kind, in the order of the goals."""
@@ -72,10 +97,10 @@ class Benchmark:
         if produced:
             reached = [outcomes[j][kind] for j in produced]
             wanted = [points[known[j]] for j in produced]
-            errors[[known[j] for j in produced]] = self._distances(kind, reached, wanted)
+            errors[[known[j] for j in produced]] = self._apart(kind, reached, wanted)
         return errors
 
-    def _distances(self, kind: str, reached: Sequence[Any], wanted: Sequence[Any]) -> FloatArray:
+    def _apart(self, kind: str, reached: Sequence[Any], wanted: Sequence[Any]) -> FloatArray:
         space = self.environment.task.outcome_spaces[kind]
         if isinstance(space, Box):  # encodes arrays of points at once
             apart = np.array(reached) - np.array(wanted)
