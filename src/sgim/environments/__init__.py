@@ -3,19 +3,29 @@
 from sgim.environments.arm import ARMS, PlanarArm
 from sgim.environments.base import Environment, MinimalEnvironment, draw_context, execute_all
 from sgim.environments.benchmark_goals import reachable_goals, throwing_goals
-from sgim.environments.fishing import FishingRod
+from sgim.environments.fishing import (
+    FishingFloor,
+    FishingRod,
+    fishing_demonstrations,
+    fishing_goals,
+    fishing_teacher,
+)
 from sgim.environments.throwing import ThrowingArm
 from sgim.environments.throwing_teachers import throwing_teachers
 
 __all__ = [
     "ARMS",
     "Environment",
+    "FishingFloor",
     "FishingRod",
     "MinimalEnvironment",
     "PlanarArm",
     "ThrowingArm",
     "draw_context",
     "execute_all",
+    "fishing_demonstrations",
+    "fishing_goals",
+    "fishing_teacher",
     "reachable_goals",
     "throwing_goals",
     "throwing_teachers",

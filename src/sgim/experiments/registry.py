@@ -2,16 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import partial
 
 from sgim.environments.arm import ARMS, PlanarArm
 from sgim.environments.base import MinimalEnvironment
 from sgim.environments.benchmark_goals import reachable_goals, throwing_goals
+from sgim.environments.fishing import FishingFloor, FishingRod
+from sgim.environments.fishing.demonstrators import DEMONSTRATORS, fishing_teacher
+from sgim.environments.fishing.goals import fishing_goals, floor_goals
 from sgim.environments.throwing import ThrowingArm
 from sgim.environments.throwing_teachers import throwing_teachers
 from sgim.errors import unknown
 from sgim.experiments.experiment import Experiment
 from sgim.runs.benchmark import Benchmark
+from sgim.teachers import Teacher
 
 DEFAULT_ARM = "7-tight"
 
@@ -38,6 +43,55 @@ def _arm(name: str) -> Experiment:
     )
 
 
+def _fishing_benchmark(environment: MinimalEnvironment) -> Benchmark:
+    assert isinstance(environment, FishingRod)
+    return Benchmark(fishing_goals(), environment, "metric", {"float": environment.rest})
+
+
+def _fishing_teachers(make: Callable[[], FishingRod]) -> dict[str, Teacher]:
+    task = make().task
+    return {f"D{number}": fishing_teacher(number, task) for number in DEMONSTRATORS}
+
+
+def _fishing(name: str, summary: str, make: Callable[[], FishingRod]) -> Experiment:
+    return Experiment(
+        name=name,
+        summary=summary,
+        environment=make,
+        benchmark=_fishing_benchmark,
+        teachers={f"D{number}": line for number, line in DEMONSTRATORS.items()},
+        make_teachers=partial(_fishing_teachers, make),
+        unit="m",
+        movements=5000,
+    )
+
+
+def _floor_benchmark(environment: MinimalEnvironment) -> Benchmark:
+    return Benchmark(floor_goals(), environment, "metric")
+
+
+_CAST = "Cast the float of a fishing rod where asked on the water"
+
+FISHING = [
+    _fishing("fishing", f"{_CAST} (chapter 3): fast model, noise 0.4.", FishingRod),
+    _fishing("fishing-full", f"{_CAST}: full model.", partial(FishingRod, fast=False)),
+    _fishing("fishing-noisy", f"{_CAST}: the thesis's noise.", partial(FishingRod, 1.0)),
+    _fishing("fishing-still", f"{_CAST}: no noise.", partial(FishingRod, 0.0)),
+    _fishing(
+        "fishing-wide",
+        f"{_CAST}: goals in a box a hundred times as long and wide.",
+        partial(FishingRod, widen=100.0),
+    ),
+    Experiment(
+        name="fishing-floor",
+        summary="Bring a ball on the line to rest where asked on the floor (section 3.6).",
+        environment=FishingFloor,
+        benchmark=_floor_benchmark,
+        unit="sides of the view",
+        movements=5000,
+    ),
+]
+
 THROWING = Experiment(
     name="throwing",
     summary="Throw a ball as far and as high as asked, or place it at an angle (chapter 4.3).",
@@ -51,7 +105,7 @@ THROWING = Experiment(
     make_teachers=throwing_teachers,
 )
 
-EXPERIMENTS = {e.name: e for e in [THROWING, *(_arm(name) for name in ARMS)]}
+EXPERIMENTS = {e.name: e for e in [THROWING, *FISHING, *(_arm(name) for name in ARMS)]}
 
 
 def experiment(name: str) -> Experiment:

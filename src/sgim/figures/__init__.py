@@ -5,5 +5,6 @@ from __future__ import annotations
 from sgim.figures.choices import choices
 from sgim.figures.error_curves import error_curves
 from sgim.figures.explored import explored
+from sgim.figures.fishing import fishing_movement
 
-__all__ = ["choices", "error_curves", "explored"]
+__all__ = ["choices", "error_curves", "explored", "fishing_movement"]

@@ -14,17 +14,17 @@ from sgim.spaces import FloatArray
 
 
 def test_the_path_is_the_normalised_gaussian_mean_of_the_via_points() -> None:
-    points = np.random.default_rng(0).normal(size=(6, 4))
+    points = np.random.default_rng(0).normal(size=(4, 6))
     duration = 1.7
     times = np.linspace(0, duration, 23)
     for t, angles in zip(times, via_point_path(points, duration, times), strict=True):
         at = np.arange(4) * duration / 3
         weights = np.exp(-((t - at) ** 2) / (2 * (duration / 6) ** 2))
-        np.testing.assert_allclose(angles, points @ weights / weights.sum())
+        np.testing.assert_allclose(angles, weights @ points / weights.sum())
 
 
 def test_after_the_duration_the_last_angles_are_held() -> None:
-    points = np.random.default_rng(1).normal(size=(6, 4))
+    points = np.random.default_rng(1).normal(size=(4, 6))
     held = via_point_path(points, 1.0, np.array([1.0, 1.2, 5.0]))
     np.testing.assert_array_equal(held, held[[0, 0, 0]])
 
@@ -42,7 +42,7 @@ def test_the_last_number_is_the_duration() -> None:
     assert FISHING.duration(np.zeros(25)) == pytest.approx(0.8)
     assert FISHING.duration(np.ones(25)) == pytest.approx(3.0)
     assert FISHING.policy_space.dimension == 25
-    assert FISHING.policy_space.names[3:5] == (f"{JOINTS[0]}_4", f"{JOINTS[1]}_1")
+    assert FISHING.policy_space.names[5:7] == (f"{JOINTS[5]}_1", f"{JOINTS[0]}_2")
     assert FISHING.policy_space.names[-1] == "duration"
 
 

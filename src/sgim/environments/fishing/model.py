@@ -30,6 +30,8 @@ _ROD_STIFFNESSES = (2.0, 1.8, 1.6)
 _LINE_LENGTH = 0.60
 _LINE_MASS = 0.006
 _FLOAT_MASS = 0.020
+# Only floor and ball touch; they slide, spin and roll with friction.
+_TOUCH = 'contype="1" conaffinity="1" condim="6" friction="0.8 0.005 0.002"'
 
 
 @dataclass(frozen=True)
@@ -41,16 +43,23 @@ class Variant:
         segments: Rigid segments of the line.
         step: Time step in s; the integrator is Runge-Kutta of order 4.
         armature: Rotor inertia of the line's hinges in kg·m², without which they are stiff.
+        floor: Height in m of a floor that the ball at the end of the line can lie on; None for
+            water, which nothing meets.
     """
 
     name: str
     segments: int
     step: float
     armature: float
+    floor: float | None = None
 
 
 FULL = Variant("full", segments=30, step=0.005, armature=1e-5)
 FAST = Variant("fast", segments=8, step=0.010, armature=2.5e-5)
+FLOOR = Variant("floor", segments=8, step=0.005, armature=2.5e-5, floor=-0.35)
+
+BALL_RADIUS = 0.01
+"""Of the float, which is a ball where there is a floor, in m."""
 
 
 def rod_model(variant: Variant, *, settling: bool = False) -> str:
@@ -69,11 +78,15 @@ def rod_model(variant: Variant, *, settling: bool = False) -> str:
         'forcerange="-30 30"/>'
         for joint, kp in _STIFFNESS_OF_CONTROL.items()
     )
+    free = variant.floor is None or settling
+    floor = "" if free else f'<geom type="plane" size="5 5 1" pos="0 0 {variant.floor}" {_TOUCH}/>'
+    touching = "disable" if free else "enable"
     return (
         '<mujoco model="fishing rod"><compiler angle="radian"/>'
+        '<default><geom contype="0" conaffinity="0"/></default>'
         f'<option timestep="{step}" integrator="{integrator}">'
-        '<flag contact="disable" constraint="disable" autoreset="disable"/></option>'
-        f"<worldbody>{bodies}</worldbody><actuator>{actuators}</actuator></mujoco>"
+        f'<flag contact="{touching}" constraint="{touching}" autoreset="disable"/></option>'
+        f"<worldbody>{floor}{bodies}</worldbody><actuator>{actuators}</actuator></mujoco>"
     )
 
 
@@ -120,7 +133,7 @@ def _line(variant: Variant, damping: float) -> str:
     mass = _LINE_MASS / variant.segments
     inner = (
         f'<body name="float" pos="0 0 {-length}">'
-        f'<geom type="sphere" size="0.01" mass="{_FLOAT_MASS}"/></body>'
+        f'<geom type="sphere" size="{BALL_RADIUS}" mass="{_FLOAT_MASS}" {_TOUCH}/></body>'
     )
     for number in reversed(range(variant.segments)):
         place = f"0 0 {-length}" if number else f"0 {_ROD_LENGTH / len(_ROD_MASSES)} 0"

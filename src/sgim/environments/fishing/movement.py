@@ -24,24 +24,24 @@ def via_point_path(points: FloatArray, duration: float, times: FloatArray) -> Fl
     duration the last angles are held.
 
     Args:
-        points: Shape ``(joints, n)``, in rad.
+        points: Shape ``(n, joints)``, in rad.
         duration: In s.
         times: In s from the start, shape ``(t,)``.
 
     Returns:
         Shape ``(t, joints)``, in rad.
     """
-    gap = duration / (points.shape[1] - 1)
-    off = (np.minimum(times, duration) / gap)[:, None] - np.arange(points.shape[1])
+    gap = duration / (len(points) - 1)
+    off = (np.minimum(times, duration) / gap)[:, None] - np.arange(len(points))
     # 2 · off² is (t - tᵢ)² over twice the square of the width, gap / 2.
     weights = np.exp(-2.0 * off**2)
     weights /= weights.sum(axis=1, keepdims=True)
-    return np.asarray(weights @ points.T)
+    return np.asarray(weights @ points)
 
 
 @dataclass(frozen=True)
 class Encoding:
-    """How the numbers of a policy are read: via points joint by joint, then perhaps a duration.
+    """How the numbers of a policy are read: one via point after the other, then the duration.
 
     Attributes:
         via_points: For each of the six joints.
@@ -57,7 +57,7 @@ class Encoding:
     @property
     def policy_space(self) -> Box:
         """The unit box of policies."""
-        names = [f"{joint}_{i + 1}" for joint in JOINTS for i in range(self.via_points)]
+        names = [f"{joint}_{i + 1}" for i in range(self.via_points) for joint in JOINTS]
         if self.longest > self.shortest:
             names.append("duration")
         return Box(0.0, 1.0, names=names)
@@ -68,8 +68,8 @@ class Encoding:
 
     def path(self, policy: FloatArray, times: FloatArray) -> FloatArray:
         """Set-points of the joints in rad at these times in s, shape ``(t, 6)``."""
-        numbers = policy[: len(JOINTS) * self.via_points].reshape(len(JOINTS), self.via_points)
-        points = HOME[:, None] + (2.0 * numbers - 1.0) * AMPLITUDES[:, None]
+        numbers = policy[: len(JOINTS) * self.via_points].reshape(self.via_points, len(JOINTS))
+        points = HOME + (2.0 * numbers - 1.0) * AMPLITUDES
         return via_point_path(points, self.duration(policy), times)
 
 

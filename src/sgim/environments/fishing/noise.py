@@ -7,6 +7,7 @@ from collections.abc import Callable
 import numpy as np
 
 from sgim.environments.fishing.movement import HOME
+from sgim.errors import SpaceError
 from sgim.spaces import FloatArray
 
 WANDER = 0.03
@@ -23,6 +24,21 @@ LONGEST_DELAY = 0.020
 
 Path = Callable[[FloatArray], FloatArray]
 """Set-points in rad, shape ``(t, 6)``, at times in s, shape ``(t,)``."""
+
+
+def commanded(
+    path: Path, times: FloatArray, factor: float, rng: np.random.Generator | None
+) -> FloatArray:
+    """The set-points of one execution, disturbed if the factor is not 0.
+
+    Raises:
+        SpaceError: If noise has no generator.
+    """
+    if factor == 0:
+        return path(times)
+    if rng is None:
+        raise SpaceError("a world with noise needs the trial's generator: pass rng=…")
+    return disturbed(path, times, factor, rng)
 
 
 def disturbed(path: Path, times: FloatArray, factor: float, rng: np.random.Generator) -> FloatArray:

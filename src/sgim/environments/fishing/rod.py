@@ -10,7 +10,7 @@ import numpy as np
 from sgim.environments.base import Environment
 from sgim.environments.fishing.model import FAST, FULL, JOINTS
 from sgim.environments.fishing.movement import FISHING
-from sgim.environments.fishing.noise import Path, disturbed
+from sgim.environments.fishing.noise import Path, commanded
 from sgim.environments.fishing.simulator import Simulator
 from sgim.errors import SpaceError
 from sgim.records import Outcome, Trajectory
@@ -27,7 +27,7 @@ TOLERANCE = 0.02
 class FishingRod(Environment):
     """An arm of six joints with a rod, a line of 60 cm and a float, above water (section 3.2).
 
-    The base is at (0, 0). A policy is 25 numbers in [0, 1]: four via points for each joint, then
+    The base is at (0, 0). A policy is 25 numbers in [0, 1]: four via points of the six joints, then
     the duration. The outcome ``float`` is the position (x, y) in m where the float first meets
     the water; it is absent if it never does while the arm moves and for 1.5 s after.
 
@@ -42,6 +42,7 @@ class FishingRod(Environment):
         task: 25 policy parameters, and the outcome ``float``.
         deterministic: Whether there is no noise.
         rest: Where the float hangs at the start, (x, y) in m, shape ``(2,)``: a_org of eq. 3.8.
+        step: Time step of the simulation in s.
 
     Raises:
         SgimError: If MuJoCo is not installed.
@@ -58,6 +59,7 @@ class FishingRod(Environment):
         self.widen = widen
         self.deterministic = noise == 0
         self._simulator = Simulator(FAST if fast else FULL)
+        self.step = self._simulator.step
         self.rest: FloatArray = self._simulator.rest[:2].copy()
         self.task = Task(
             FISHING.policy_space,
@@ -108,17 +110,11 @@ class FishingRod(Environment):
         return self._simulator.positions(FISHING.path(point, self._times(FISHING.duration(point))))
 
     def _outcome(self, path: Path, duration: float, rng: np.random.Generator | None) -> Outcome:
-        times = self._times(duration)
-        if self.deterministic:
-            set_points = path(times)
-        elif rng is None:
-            raise SpaceError("a world with noise needs the trial's generator: pass rng=…")
-        else:
-            set_points = disturbed(path, times, self.noise, rng)
+        set_points = commanded(path, self._times(duration), self.noise, rng)
         landing = self._simulator.land(set_points)
         return {} if landing is None else {"float": landing}
 
     def _times(self, duration: float) -> FloatArray:
         """Times of the steps of a movement that lasts ``duration`` and is then held."""
-        step = self._simulator.step
-        return np.asarray(np.arange(math.ceil((duration + HOLD) / step)) * step, dtype=np.float64)
+        steps = math.ceil((duration + HOLD) / self.step)
+        return np.asarray(np.arange(steps) * self.step, dtype=np.float64)

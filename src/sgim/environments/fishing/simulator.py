@@ -95,6 +95,32 @@ class Simulator:
         landing: FloatArray = before[:2] + share * (position[:2] - before[:2])
         return landing
 
+    def end(self, set_points: FloatArray) -> tuple[FloatArray, float]:
+        """Where the float is after a movement, and how fast it still moves.
+
+        Args:
+            set_points: As in `land`.
+
+        Returns:
+            Position in m, shape ``(3,)``, and speed in m/s over the last step.
+
+        Raises:
+            SgimError: If the simulation becomes unstable.
+        """
+        model, data = self._model, self._data
+        position = data.xpos[self._float]
+        with _Silence(self._mujoco):
+            self._begin()
+            before = position.copy()
+            for row in set_points:
+                self._mujoco.mj_kinematics(model, data)
+                before[:] = position
+                data.ctrl[:] = row
+                self._mujoco.mj_step(model, data)
+            self._mujoco.mj_kinematics(model, data)
+            self._require_stable(before)
+        return position.copy(), float(np.linalg.norm(position - before)) / self.step
+
     def positions(self, set_points: FloatArray) -> tuple[tuple[str, ...], FloatArray]:
         """Where all bodies are during a movement, which goes on under water.
 
