@@ -3,6 +3,7 @@ import pytest
 
 from sgim import algorithms
 from sgim.environments import PlanarArm
+from sgim.errors import SgimError
 from sgim.records import Goal, Trial
 from sgim.runs import Benchmark
 from sgim.streams import Streams
@@ -41,3 +42,20 @@ def test_the_origin_is_scaled_as_the_goals_are() -> None:
 def test_without_origins_nothing_is_added() -> None:
     learner = algorithms.make("random", ARM.task)
     assert Benchmark(GOALS, ARM).evaluate(learner, Streams(0), 0) == {"hand": 1.0, "total": 1.0}
+
+
+def test_a_movement_that_fails_costs_1_and_the_others_are_measured() -> None:
+    class Fragile(PlanarArm):
+        def execute_batch(self, policies, contexts=None, rngs=None):  # type: ignore[no-untyped-def]
+            if any(policy[0] > 1 for policy in policies):
+                raise SgimError("too far")
+            return super().execute_batch(policies, contexts, rngs)
+
+    arm = Fragile(2, noise=0.0, low=(-1.0, -1.0), limit=1.5)
+    learner = algorithms.make("random", arm.task)
+    for angle in (0.0, 1.4):
+        posture = np.array([angle, 0.0])
+        learner.observe(Trial(posture, {"hand": arm.hands([posture])[0]}))
+    benchmark = Benchmark(GOALS, arm, "metric")
+    distances = benchmark.distances(learner, "hand", Streams(0), 0)
+    np.testing.assert_allclose(distances, [1.0, 0.5, 0.25, 0.0], atol=1e-12)

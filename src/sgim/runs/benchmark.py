@@ -7,9 +7,10 @@ from typing import Any, Literal
 
 import numpy as np
 
-from sgim.environments.base import MinimalEnvironment, draw_context, execute_all
+from sgim.environments.base import Generators, MinimalEnvironment, draw_context, execute_all
+from sgim.errors import SgimError
 from sgim.learner import Learner
-from sgim.records import Goal
+from sgim.records import Goal, Outcome
 from sgim.spaces import Box, FloatArray
 from sgim.streams import Streams
 
@@ -21,7 +22,8 @@ class Benchmark:
         goals: The goals; their kinds must be encodable outcomes of the environment.
         environment: Where policies are executed; noiseless, to measure the policy itself.
         distance: ``"scaled"``: in the unit box, at most 1 (the thesis's measure); ``"metric"``:
-            in the outcome's own units. A goal whose kind was not produced costs 1.
+            in the outcome's own units. A goal whose kind was not produced costs 1, as does one
+            whose movement failed with an `SgimError`.
         origins: Kind → the outcome of doing nothing. For these kinds the relative error of
             eq. 3.8 is given as well: the distance over that from the origin to the goal, at
             most 1.
@@ -87,7 +89,7 @@ class Benchmark:
         errors = np.ones(len(points))
         if not known:
             return errors
-        outcomes = execute_all(
+        outcomes = _executed(
             environment,
             [policies[i] for i in known],
             None if contexts is None else [contexts[i] for i in known],
@@ -112,3 +114,24 @@ class Benchmark:
                 [space.encode(a) - space.encode(b) for a, b in zip(reached, wanted, strict=True)]
             )
         return np.asarray(np.minimum(np.linalg.norm(apart, axis=1), 1.0))
+
+
+def _executed(
+    environment: MinimalEnvironment,
+    policies: Sequence[Any],
+    contexts: Sequence[Any] | None,
+    rngs: Generators | None,
+) -> list[Outcome]:
+    """What each policy produces; nothing where the world says that its movement failed."""
+    try:
+        return execute_all(environment, policies, contexts, rngs)
+    except SgimError:
+        if len(policies) == 1:
+            return [{}]
+    outcomes: list[Outcome] = []
+    for i in range(len(policies)):
+        one = slice(i, i + 1)
+        outcomes += _executed(
+            environment, policies[one], contexts and contexts[one], rngs and rngs[one]
+        )
+    return outcomes

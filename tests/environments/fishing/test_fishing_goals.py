@@ -46,16 +46,15 @@ def test_without_noise_the_floor_is_the_distance_to_the_nearest_landing() -> Non
     np.testing.assert_allclose(errors, nearest)
 
 
-def test_choosing_among_more_neighbours_lowers_the_noise_floor() -> None:
-    world = FishingRod(1.0)
-    rng = np.random.default_rng(1)
-    policies = rng.random((60, 25))
-    outcomes = [world.execute(policy, None, rng) for policy in policies]
-    landed = [i for i, outcome in enumerate(outcomes) if outcome]
-    landings = np.array([outcomes[i]["float"] for i in landed])
-    wanted = landings[np.linalg.norm(landings - world.rest, axis=1) > 0.15]
-    one, ten = (
-        noise_floor(world, wanted, policies[landed], landings, rng, neighbours=k, repetitions=4)
-        for k in (1, 10)
-    )
-    assert ten.mean() < one.mean()
+def test_a_lucky_memory_is_found_out_when_its_neighbours_are_compared() -> None:
+    still = FishingRod(0.0)
+    policies = np.random.default_rng(0).random((12, 25))
+    honest = next(p for p in policies if still.execute(p))
+    landing = still.execute(honest)["float"]
+    lucky = next(p for p in policies if not still.execute(p))
+    remembered = np.array([landing + [0.01, 0.0], landing])
+    memory = (np.array([honest, lucky]), remembered, np.random.default_rng(0))
+    [one] = noise_floor(still, landing[None], *memory, neighbours=1, repetitions=1)
+    [two] = noise_floor(still, landing[None], *memory, neighbours=2, repetitions=1)
+    assert one == 1.0
+    assert two == 0.0

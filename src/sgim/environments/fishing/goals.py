@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from sgim.environments.base import execute_all
 from sgim.environments.fishing.rod import FishingRod
 from sgim.environments.tables import read_table
+from sgim.errors import SgimError
 from sgim.records import Goal
 from sgim.spaces import FloatArray
 
@@ -49,16 +49,11 @@ def noise_floor(
         repetitions: How often each is executed to choose, and the chosen one to measure.
 
     Returns:
-        Mean distances in m, a movement that does not land counting 1, shape ``(goals,)``.
+        Mean distances in m, a movement that fails or does not land counting 1, shape ``(goals,)``.
     """
 
     def misses(policy: FloatArray, goal: FloatArray) -> float:
-        rngs = None if world.deterministic else [rng] * repetitions
-        outcomes = execute_all(world, [policy] * repetitions, None, rngs)
-        distances = [
-            float(np.linalg.norm(o["float"] - goal)) if "float" in o else 1.0 for o in outcomes
-        ]
-        return float(np.mean(distances))
+        return float(np.mean([_miss(world, policy, goal, rng) for _ in range(repetitions)]))
 
     errors = np.empty(len(goals))
     for number, goal in enumerate(goals):
@@ -66,3 +61,13 @@ def noise_floor(
         best = min(near.tolist(), key=lambda i: misses(policies[i], goal))
         errors[number] = misses(policies[best], goal)
     return errors
+
+
+def _miss(
+    world: FishingRod, policy: FloatArray, goal: FloatArray, rng: np.random.Generator
+) -> float:
+    try:
+        outcome = world.execute(policy, None, rng)
+    except SgimError:
+        return 1.0
+    return float(np.linalg.norm(outcome["float"] - goal)) if "float" in outcome else 1.0
