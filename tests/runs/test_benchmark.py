@@ -24,6 +24,8 @@ def test_with_an_origin_errors_are_also_given_relative_to_the_way_from_it() -> N
     np.testing.assert_allclose(
         benchmark.relative("hand", np.array([2.0, 0.25, 0.05, 0.1])), [1.0, 0.5, 0.2, 1.0]
     )
+    nothing = benchmark.evaluate(algorithms.make("random", ARM.task), Streams(0), 0)
+    assert nothing == {"hand": 1.0, "hand relative": 1.0, "total": 1.0}
     errors = benchmark.evaluate(learner, Streams(0), 0)
     assert list(errors) == ["hand", "hand relative", "total"]
     assert errors["total"] == errors["hand"] == pytest.approx(distances.mean())

@@ -59,11 +59,11 @@ class Benchmark:
         errors: dict[str, float] = {}
         means = []
         for kind in self.goals:
-            distances = self.distances(learner, kind, streams, index)
-            means.append(float(np.mean(distances)))
+            measured = self._measured(learner, kind, streams, index)
+            means.append(float(np.mean(_or_1(measured))))
             errors[kind] = means[-1]
             if kind in self._ways:
-                errors[f"{kind} relative"] = float(np.mean(self.relative(kind, distances)))
+                errors[f"{kind} relative"] = float(np.mean(self.relative(kind, measured)))
         return {**errors, "total": float(np.mean(means))}
 
     def relative(self, kind: str, distances: FloatArray) -> FloatArray:
@@ -71,14 +71,19 @@ class Benchmark:
 
         Args:
             kind: A kind with an origin.
-            distances: Of all its goals, as `distances` gives them, shape ``(n,)``.
+            distances: Of all its goals, NaN where nothing of the kind was produced, which costs
+                1; shape ``(n,)``.
         """
         # A goal at the origin itself: any distance at all is as far as it can be.
         ways = np.maximum(self._ways[kind], 1e-12)
-        return np.asarray(np.minimum(distances / ways, 1.0))
+        return np.minimum(_or_1(distances / ways), 1.0)
 
     def distances(self, learner: Learner, kind: str, streams: Streams, index: int) -> FloatArray:
         """The error of each goal of one kind, in the order of the goals."""
+        return _or_1(self._measured(learner, kind, streams, index))
+
+    def _measured(self, learner: Learner, kind: str, streams: Streams, index: int) -> FloatArray:
+        """The distance to each goal of one kind; NaN where nothing of the kind was produced."""
         points, environment = self.goals[kind], self.environment
         rng = streams(f"evaluation/{kind}", index)
         contexts: list[Any] | None = None
@@ -86,7 +91,7 @@ class Benchmark:
             contexts = [draw_context(environment, rng) for _ in points]
         policies = learner.best_policies(kind, points, contexts)
         known = [i for i, policy in enumerate(policies) if policy is not None]
-        errors = np.ones(len(points))
+        errors = np.full(len(points), np.nan)
         if not known:
             return errors
         outcomes = _executed(
@@ -114,6 +119,11 @@ class Benchmark:
                 [space.encode(a) - space.encode(b) for a, b in zip(reached, wanted, strict=True)]
             )
         return np.asarray(np.minimum(np.linalg.norm(apart, axis=1), 1.0))
+
+
+def _or_1(distances: FloatArray) -> FloatArray:
+    """The distances, 1 instead of NaN."""
+    return np.where(np.isnan(distances), 1.0, distances)
 
 
 def _executed(

@@ -52,7 +52,7 @@ def test_a_lucky_memory_is_found_out_when_its_neighbours_are_compared() -> None:
     honest = next(p for p in policies if still.execute(p))
     landing = still.execute(honest)["float"]
     lucky = next(p for p in policies if not still.execute(p))
-    remembered = np.array([landing + [0.01, 0.0], landing])
+    remembered = np.array([landing + np.array([0.01, 0.0]), landing])
     memory = (np.array([honest, lucky]), remembered, np.random.default_rng(0))
     [one] = noise_floor(still, landing[None], *memory, neighbours=1, repetitions=1)
     [two] = noise_floor(still, landing[None], *memory, neighbours=2, repetitions=1)

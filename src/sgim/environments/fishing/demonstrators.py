@@ -31,8 +31,8 @@ DEMONSTRATORS = {
     1: "movements of a learner, drawn at random",
     2: "movements of a learner, the most reliable ones",
     3: "recorded movements of the joints, led smoothly",
-    4: "those of 3 that land behind the base, where few do by chance",
-    5: "those of 3 that land before the base",
+    4: "those of D3 that land behind the base, where few do by chance",
+    5: "those of D3 that land before the base",
 }
 """Number → what it shows."""
 
