@@ -2,10 +2,9 @@
 
 Run it as ``python -m sgim.experiments.make_fishing_kinaesthetic``.
 There is no person at hand who leads the arm. Instead, minimum-jerk movements are searched whose
-landings spread evenly over what can be reached: end postures and durations are drawn at random,
-or near those that landed where few have. Fragile movements make bad demonstrations, so of
-several in a tile the one is kept that lands closest to where it should when it is repeated with
-noise, by the fast model and by the full one.
+landings spread evenly over what can be reached. Fragile movements make bad demonstrations, so in
+each tile those are kept and varied that land closest to where they should when they are repeated
+with noise; at the end, one of them is chosen by more repetitions, by the full model too.
 """
 
 from __future__ import annotations
@@ -30,18 +29,18 @@ from sgim.spaces import FloatArray
 from sgim.streams import Streams
 
 SEED = 4000
-MOVEMENTS = 20_000
+MOVEMENTS = 14_000
 COUNT = 127
-GRID = 14
-SEVERAL = 24
-STAGES = ((6, 2, 0), (1, 10, 2))
-"""How many candidates a tile are kept, after how many repetitions by the fast and full model."""
+GRID = 13
+SEVERAL = 4
+REPETITIONS = (8, 2)
+"""How often a movement that was kept is repeated by the fast and by the full model."""
 
 SHORTEST, LONGEST = 0.8, 3.0
 # The thesis's primitive gets no further than this share of its amplitudes at the end.
 REACH = 0.88
 # How far a movement is varied, as a share of the amplitudes and in s.
-_VARIATION = 0.12
+_VARIATION = 0.1
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,19 +64,21 @@ class Candidate:
 
 
 def search(rng: np.random.Generator, movements: int) -> list[Candidate]:
-    """Movements that land in the goal box without noise, also where few do."""
-    still = FishingRod(0.0)
-    found: list[Candidate] = []
-    tiles: defaultdict[tuple[int, int], list[Candidate]] = defaultdict(list)
+    """Movements that land in the goal box, a few in each tile, those that repeat best so far.
+
+    Each is made without noise, and twice with it; new ones vary those that were kept.
+    """
+    still, noisy = FishingRod(0.0), FishingRod()
+    kept: defaultdict[tuple[int, int], list[tuple[float, Candidate]]] = defaultdict(list)
     for number in range(movements):
-        if number < movements / 10 or rng.random() < 0.2:
+        if number < movements / 10 or rng.random() < 0.1:
             end, duration = rng.uniform(-REACH, REACH, 6), rng.uniform(SHORTEST, LONGEST)
         else:
-            # Near a movement of that tile, of some, which has the fewest.
-            names = list(tiles)
-            drawn = [names[i] for i in rng.choice(len(names), size=8)]
-            few = tiles[min(drawn, key=lambda name: len(tiles[name]))]
-            near = few[int(rng.integers(len(few)))]
+            # Of some tiles, the one whose best movement repeats worst.
+            names = list(kept)
+            drawn = [names[i] for i in rng.choice(len(names), size=3)]
+            worst = kept[max(drawn, key=lambda name: kept[name][0][0])]
+            near = worst[int(rng.integers(len(worst)))][1]
             end = np.clip(near.end + _VARIATION * rng.standard_normal(6), -REACH, REACH)
             varied = near.duration + _VARIATION * rng.standard_normal()
             duration = float(np.clip(varied, SHORTEST, LONGEST))
@@ -86,28 +87,25 @@ def search(rng: np.random.Generator, movements: int) -> list[Candidate]:
         except SgimError:
             continue
         if "float" in outcome and np.abs(outcome["float"]).max() < 1:
-            found.append(Candidate(end, duration, outcome["float"]))
+            candidate = Candidate(end, duration, outcome["float"])
             column, row = np.floor((outcome["float"] + 1) / 2 * GRID).astype(int).tolist()
-            tiles[column, row].append(found[-1])
-    return found
+            tile = kept[column, row]
+            tile.append((miss(candidate, [noisy], [2], rng), candidate))
+            tile.sort(key=lambda pair: pair[0])
+            del tile[SEVERAL:]
+    return [candidate for tile in kept.values() for _, candidate in tile]
 
 
 def most_repeatable(
     found: Sequence[Candidate], rng: np.random.Generator
 ) -> list[tuple[float, Candidate]]:
-    """For each tile, the candidate that misses least when it is repeated, and by how much.
-
-    All candidates are repeated a little, and the best of them more often.
-    """
+    """For each tile, the candidate that misses least when it is repeated, and by how much."""
     worlds = FishingRod(), FishingRod(fast=False)
     chosen = []
     for tile in by_tile(np.array([candidate.landing for candidate in found]), COUNT):
-        several = [found[i] for i in rng.permutation(tile)[:SEVERAL].tolist()]
-        for finalists, *often in STAGES:
-            misses = np.array([miss(candidate, worlds, often, rng) for candidate in several])
-            best = misses.argsort()[:finalists].tolist()
-            several = [several[i] for i in best]
-        chosen.append((float(misses[best[0]]), several[0]))
+        misses = [miss(found[i], worlds, REPETITIONS, rng) for i in tile]
+        best = int(np.argmin(misses))
+        chosen.append((misses[best], found[tile[best]]))
     return chosen
 
 
@@ -136,7 +134,7 @@ def main(folder: Path) -> None:
     """Search, choose, and write the demonstrations."""
     streams = Streams(SEED)
     found = search(streams("search"), MOVEMENTS)
-    print(f"{len(found)} of {MOVEMENTS} movements landed in the box", flush=True)
+    print(f"{len(found)} of {MOVEMENTS} movements kept", flush=True)
     chosen = most_repeatable(found, streams("repeat"))
     kept = sorted(chosen, key=lambda pair: pair[0])[:COUNT]
     misses = np.array([miss for miss, _ in kept])

@@ -75,7 +75,7 @@ _CAST = "Cast the float of a fishing rod where asked on the water"
 FISHING = [
     _fishing("fishing", f"{_CAST} (chapter 3): fast model, noise 0.4.", FishingRod),
     _fishing("fishing-full", f"{_CAST}: full model.", partial(FishingRod, fast=False)),
-    _fishing("fishing-noisy", f"{_CAST}: the thesis's noise.", partial(FishingRod, 1.0)),
+    _fishing("fishing-noisy", f"{_CAST}: noise 1.", partial(FishingRod, 1.0)),
     _fishing("fishing-still", f"{_CAST}: no noise.", partial(FishingRod, 0.0)),
     _fishing(
         "fishing-wide",

@@ -32,8 +32,8 @@ class FishingRod(Environment):
     the water; it is absent if it never does while the arm moves and for 1.5 s after.
 
     Args:
-        noise: Factor of the noise on the arm's commands: 1 for outcomes that scatter as in the
-            thesis, 0 for none.
+        noise: Factor of the noise on the arm's commands: 1 for the amounts of
+            `sgim.environments.fishing.noise`, 0 for none.
         fast: Whether to simulate the line by 8 segments instead of 30, at twice the time step:
             about a quarter of the time.
         widen: Factor by which the box of goals exceeds [-1, 1] in each dimension.
