@@ -150,7 +150,7 @@ def test_goals_are_chosen_from_interesting_regions_that_contain_the_present_cont
     for number in range(300):
         context = base(number)
         place = ARM.task.context_space.encode(context)[0]
-        _, goal = learner.strategy.choose(STREAMS("choice", number), (), context)
+        _, goal = learner.strategy.choose(0, STREAMS("choice", number), (), context)
         assert goal is not None
         around = [r for r in tree.leaves if r.low[2] <= place <= r.high[2]]
         interests = tree.interests()[[r.leaf for r in around], 0]

@@ -54,7 +54,7 @@ def hit(recorded: sgim.Trajectory) -> Outcome:
 def recording(angle: float, seconds: float) -> sgim.Demonstration:
     """A person led the arm by the hand, smoothly, up to a hit; read yours from files."""
     times = np.arange(0, seconds, 1 / SAMPLES)
-    shown = sgim.Trajectory(times, angle * (times[:, None] / seconds) ** 2, [PRIMITIVE.joint])
+    shown = sgim.Trajectory(times, angle * (times[:, None] / seconds) ** 2, PRIMITIVE.joints)
     return sgim.Demonstration(outcome=hit(shown), trajectory=shown)
 
 

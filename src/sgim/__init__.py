@@ -55,6 +55,7 @@ _PACKAGES = {
     "policy",
     "primitives",
     "runs",
+    "statistics",
     "strategy",
     "teachers",
     "testing",

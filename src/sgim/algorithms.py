@@ -1,15 +1,22 @@
 """Named learners: each a composition of policy level, outcome level and strategy level.
 
-==========================  ====================  ==========================  ===================
-name                        modes                 interest map                strategy
-==========================  ====================  ==========================  ===================
-random                      random                none                        one mode, no goal
-random-goal-babbling        autonomous            uniform goals               joint choice
-sagg-riac                   autonomous            region tree                 joint choice
-mimicry                     mimic one teacher     region tree                 joint choice
-emulation                   emulate one teacher   region tree                 joint choice
-sgim-acts                   all of these          region tree                 joint choice
-==========================  ====================  ==========================  ===================
+==============================  ====================  ==============  ====================
+name                            modes                 interest map    strategy
+==============================  ====================  ==============  ====================
+random                          random                none            one mode, no goal
+random-goal-babbling            autonomous            uniform goals   joint choice
+sagg-riac                       autonomous            regions         joint choice
+mimicry                         mimic one teacher     regions         joint choice
+emulation                       emulate one teacher   regions         joint choice
+sgim-acts                       all of these          regions         joint choice
+uniform-choice                  all of these          uniform goals   joint choice
+round-robin                     all of these          regions         every mode in turn
+demonstrations-first            mimic, autonomous     uniform goals   demonstrations first
+demonstrations-first-sagg-riac  mimic, autonomous     regions         demonstrations first
+==============================  ====================  ==============  ====================
+
+The last four are controls that choosing must beat. Regions are weighed by progress or by expected
+gain, as the configuration says.
 
 Every function takes the same arguments:
 
@@ -31,7 +38,7 @@ from sgim.configurations import Configuration, configuration_of
 from sgim.errors import SgimError, unknown
 from sgim.learner import Learner
 from sgim.memory import Memory
-from sgim.outcome import InterestMap, RegionTree, UniformGoals
+from sgim.outcome import ExpectedGain, InterestMap, RegionTree, UniformGoals
 from sgim.policy import (
     Explorer,
     LocalSearch,
@@ -41,7 +48,15 @@ from sgim.policy import (
     NoisyNearest,
     RandomPolicies,
 )
-from sgim.strategy import Aimless, JointChoice, Mode, News, Strategy
+from sgim.strategy import (
+    Aimless,
+    DemonstrationsFirst,
+    JointChoice,
+    Mode,
+    News,
+    RoundRobin,
+    Strategy,
+)
 from sgim.streams import Streams
 from sgim.task import Task
 
@@ -126,12 +141,51 @@ def sgim_acts(
 ) -> Learner:
     """Choose goal, mode and teacher together (algorithm 4.3.1)."""
     parts = _Parts("sgim-acts", task, teachers, configuration, seed, interest)
-    if not parts.teachers:
-        raise SgimError("sgim-acts chooses among teachers: name one or more, or use sagg-riac")
-    alone = parts.autonomous()
-    modes = [alone, *(parts.mimic(t) for t in parts.teachers)]
-    modes += [parts.emulate(t, alone) for t in parts.teachers]
-    return parts.joint_choice(modes, alone)
+    return parts.joint_choice(*parts.all_modes())
+
+
+def uniform_choice(
+    task: Task, teachers: Teachers, *, configuration: Given = "modern", seed: int = 0
+) -> Learner:
+    """Goal, mode and teacher drawn uniformly: no interest at all."""
+    parts = _Parts("uniform-choice", task, teachers, configuration, seed)
+    modes, alone = parts.all_modes()
+    return parts.learner(JointChoice(modes, UniformGoals(task.goal_spaces), alone))
+
+
+def round_robin(
+    task: Task,
+    teachers: Teachers,
+    *,
+    configuration: Given = "modern",
+    seed: int = 0,
+    interest: MakeMap | None = None,
+) -> Learner:
+    """Every mode in turn, each for a goal that is interesting to pursue by it."""
+    parts = _Parts("round-robin", task, teachers, configuration, seed, interest)
+    modes, alone = parts.all_modes()
+    return parts.learner(RoundRobin(modes, parts.interest_in(modes), alone))
+
+
+def demonstrations_first(
+    task: Task, teachers: Teachers, *, configuration: Given = "modern", seed: int = 0
+) -> Learner:
+    """All demonstrations first, each mimicked, then goal babbling with uniform goals."""
+    parts = _Parts("demonstrations-first", task, teachers, configuration, seed)
+    return parts.demonstrations_first(UniformGoals(task.goal_spaces))
+
+
+def demonstrations_first_sagg_riac(
+    task: Task,
+    teachers: Teachers,
+    *,
+    configuration: Given = "modern",
+    seed: int = 0,
+    interest: MakeMap | None = None,
+) -> Learner:
+    """All demonstrations first, each mimicked, then goal babbling driven by interest."""
+    parts = _Parts("demonstrations-first-sagg-riac", task, teachers, configuration, seed, interest)
+    return parts.demonstrations_first(parts.interest_in([parts.autonomous()]))
 
 
 class Algorithm(Protocol):
@@ -151,6 +205,10 @@ ALGORITHMS: dict[str, Algorithm] = {
     "mimicry": mimicry,
     "emulation": emulation,
     "sgim-acts": sgim_acts,
+    "uniform-choice": uniform_choice,
+    "round-robin": round_robin,
+    "demonstrations-first": demonstrations_first,
+    "demonstrations-first-sagg-riac": demonstrations_first_sagg_riac,
 }
 
 
@@ -265,15 +323,55 @@ class _Parts:
             "demonstrated",
         )
 
+    def all_modes(self) -> tuple[list[Mode], Mode]:
+        """Autonomous exploration, mimicry and emulation of every teacher; and the first of them."""
+        if not self.teachers:
+            raise SgimError(
+                f"{self.name} chooses among teachers: name one or more, or use sagg-riac"
+            )
+        alone = self.autonomous()
+        modes = [alone, *(self.mimic(t) for t in self.teachers)]
+        return [*modes, *(self.emulate(t, alone) for t in self.teachers)], alone
+
     def joint_choice(self, modes: Sequence[Mode], alone: Mode) -> Learner:
         """A learner that chooses among modes by interest."""
-        config, costs = self.config, {mode.name: mode.cost for mode in modes}
-        made = self._tree(costs) if self.interest is None else self.interest(costs)
-        news = News(self.task.outcome_spaces) if config.news and alone in modes else None
-        return self.learner(JointChoice(modes, made, alone, news))
+        news = News(self.task.outcome_spaces) if self.config.news and alone in modes else None
+        return self.learner(JointChoice(modes, self.interest_in(modes), alone, news))
 
-    def _tree(self, costs: Mapping[str, float]) -> RegionTree:
-        config = self.config
+    def demonstrations_first(self, interest: InterestMap) -> Learner:
+        """A learner that asks every teacher in turn, then explores alone."""
+        if not self.teachers:
+            raise SgimError(f"{self.name} begins by asking: name one or more teachers")
+        return self.learner(
+            DemonstrationsFirst(
+                [self.mimic(t) for t in self.teachers],
+                self.config.first_demonstrations,
+                UniformGoals(self.task.goal_spaces),
+                self.autonomous(),
+                interest,
+            )
+        )
+
+    def interest_in(self, modes: Sequence[Mode]) -> InterestMap:
+        """The interest map over these modes."""
+        config, costs = self.config, {mode.name: mode.cost for mode in modes}
+        if self.interest is not None:
+            return self.interest(costs)
+        if config.interest == "gain":
+            return ExpectedGain(
+                self.task.goal_spaces,
+                costs,
+                self.model.lacks,
+                Streams(self.seed),
+                context_space=self.task.context_space,
+                capacity=config.region_capacity,
+                candidates=config.split_candidates,
+                window=config.progress_window,
+                prior=config.prior,
+                sharpness=config.sharpness,
+                uniform=config.goal_rules[0],
+                goals=config.goals,
+            )
         return RegionTree(
             self.task.goal_spaces,
             costs,

@@ -23,19 +23,31 @@ class Configuration:
         mimicry_radius: ε of algorithm 3.2.1, in the policy's own units.
         mimicry_exact_first: Whether the first repetition is without variation.
         social_cost: κ of the modes that ask a teacher; autonomous exploration has 1.
-        progress_scale: α_p of eq. 4.2.
-        progress_window: δ of eq. 4.3.
-        region_capacity: g_max of algorithm 4.3.2.
+        progress_scale: α_p of eq. 4.2; for interest in ``"progress"``.
+        progress_window: δ of eq. 4.3: how many of the latest episodes count.
+        region_capacity: Episodes in a region before it is split: of one mode for ``"progress"``
+            (g_max of algorithm 4.3.2), of all together for ``"gain"``.
         split_candidates: m of section 4.3.2.4.
-        goal_rules: Probabilities of the rules uniform, interesting, worst_point.
-        prior: Interest of untried pairs, before division by the cost.
-        staleness: Interest that a pair regains with age, before division by the cost.
-        credit: Whether progress counts where the goal was ``chosen``, or at what was ``pursued``.
-        sized: Whether progress is divided by the sizes |A_i| of eq. 4.2, which the task states.
+        goal_rules: Probabilities of the rules uniform, interesting, worst_point; ``"gain"`` has
+            the first two.
+        prior: What an untried mode is expected to be worth, before division by its cost: its
+            interest for ``"progress"``, the share of what is lacking that a movement removes for
+            ``"gain"``.
+        staleness: Interest that a pair regains with age, before division by the cost; for
+            ``"progress"``.
+        credit: Whether progress counts where the goal was ``chosen``, or at what was ``pursued``;
+            for ``"progress"``.
+        sized: Whether progress is divided by the sizes |A_i| of eq. 4.2, which the task states;
+            for ``"progress"``.
         news: Whether requests are given up for exploring alone unless they are expected to bring
             a demonstration not seen before.
         reached_share: Local search ends an episode when its goal is within the task's tolerance
             and its cost at most this share of what it was before.
+        interest: What makes a goal interesting: recent ``"progress"``, as in the thesis, or the
+            ``"gain"`` that is expected of a movement.
+        goals: How many goals are drawn to choose among; for ``"gain"``.
+        sharpness: How much a mode is preferred to those that gain less; for ``"gain"``.
+        first_demonstrations: Requests of ``demonstrations-first`` before it explores alone.
     """
 
     name: str
@@ -56,6 +68,10 @@ class Configuration:
     sized: bool = True
     news: bool = False
     reached_share: float = 0.5
+    interest: Literal["progress", "gain"] = "progress"
+    goals: int = 3
+    sharpness: float = 3.0
+    first_demonstrations: int = 100
 
     def measure(self, task: Task) -> InterestMeasure:
         """How progress and interest are measured (eq. 4.2 and 4.3)."""
@@ -71,15 +87,15 @@ THESIS = Configuration("thesis", "nelder-mead")
 MODERN = Configuration(
     "modern",
     "local",
-    mimicry_movements=3,
+    search_movements=2,
+    mimicry_movements=1,
     mimicry_exact_first=True,
-    goal_rules=(0.3, 0.5, 0.2),
-    credit="chosen",
-    sized=False,
-    region_capacity=20,
+    interest="gain",
+    region_capacity=40,
     split_candidates=10,
+    goal_rules=(0.1, 0.9, 0.0),
+    prior=0.5,
     news=True,
-    search_movements=5,
 )
 CONFIGURATIONS = {c.name: c for c in (THESIS, MODERN)}
 

@@ -11,7 +11,15 @@ from sgim.spaces import Space, space_from_description
 
 
 class Primitive(Protocol):
-    """A movement encoding: how a policy becomes a trajectory, and back (the correspondence)."""
+    """A movement encoding: how a policy becomes a trajectory, and back (the correspondence).
+
+    Attributes:
+        joints: Names of the joints that it moves.
+        unit: Unit of their positions.
+    """
+
+    joints: tuple[str, ...]
+    unit: str
 
     def fit(self, trajectory: Trajectory) -> tuple[Any, float]:
         """The policy that best reproduces a recorded trajectory, and the residual.

@@ -76,7 +76,7 @@ class Transitions:
         """Decide the next episode's mode and goal, without opening it."""
         number = self.ledger.next_episode
         self._rng = number, self.streams("learner", number)
-        mode, chosen = self.strategy.choose(self._rng[1], self._absent, context)
+        mode, chosen = self.strategy.choose(number, self._rng[1], self._absent, context)
         if chosen is not None:
             chosen = self.task.check_goal(chosen.kind, chosen.point)
         if self._given:

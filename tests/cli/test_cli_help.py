@@ -70,7 +70,12 @@ def test_a_mistyped_option_is_answered_with_the_nearest(sgim) -> None:
 
 
 def test_a_journal_that_is_not_there_is_a_failure(sgim) -> None:
-    for words in (["show", "no.sgim"], ["resume", "no.sgim"], ["plot", "no.sgim"]):
+    for words in (
+        ["show", "no.sgim"],
+        ["resume", "no.sgim"],
+        ["plot", "no.sgim"],
+        ["compare", "no.sgim"],
+    ):
         said = sgim(*words)
         assert said.code == 1
         assert "there is no journal no.sgim" in said.err

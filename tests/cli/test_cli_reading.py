@@ -128,7 +128,8 @@ def test_plot_draws_and_says_where(sgim, finished: Path, tmp_path, format_: str)
     assert said.code == 0
     written = [tmp_path / line for line in said.out.split()]
     assert [path.name for path in written] == [
-        f"throwing-{name}.{format_}" for name in ("errors", "choices", "explored")
+        f"throwing-{name}.{format_}"
+        for name in ("errors", "costs", "choices", "strategies", "explored")
     ]
     begins = b"\x89PNG" if format_ == "png" else b"<?xml"
     assert all(path.read_bytes().startswith(begins) for path in written)
@@ -141,6 +142,7 @@ def test_plot_takes_directories_and_keeps_experiments_apart(sgim, finished, tmp_
     names = {Path(line).name for line in sgim("plot", "runs", finished).out.split()}
     assert {"throwing-errors.png", "throwing-choices.png"} < names
     assert {"arm-random-0-errors.png", "arm-random-0-choices.png"} < names
+    assert not {"arm-random-0-costs.png", "arm-random-0-strategies.png"} & names
     assert {"throwing-explored.png", "throwing-random-0-explored.png"} < names
     assert "throwing-random-1-explored.png" not in names
     assert "throwing-random-1-explored.png" in sgim("plot", "runs", "--each").out

@@ -17,6 +17,7 @@ import pytest
 import sgim
 from sgim.algorithms import ALGORITHMS
 from sgim.configurations import CONFIGURATIONS, Configuration
+from sgim.environments import AirHockey
 from sgim.errors import JournalError
 from sgim.events import Answered, Ended, Opened, Told
 from sgim.outcome.region_tree import RegionTree
@@ -25,6 +26,7 @@ from sgim.policy.model import NearestModel
 from sgim.policy.nelder_mead import NelderMeadSearch
 from sgim.policy.simple import NoisyNearest
 from sgim.runs.rows import RecordedPlan
+from sgim.teachers import load_demonstrations
 
 ROOT = Path(__file__).parent.parent.parent
 EXAMPLES = ROOT / "docs" / "examples"
@@ -190,7 +192,7 @@ def shown_by(commands: list[str], cwd: Path) -> str:
     return "\n".join(lines) + "\n"
 
 
-@pytest.mark.parametrize("name", ["first-run", "your-own-world"])
+@pytest.mark.parametrize("name", ["first-run", "your-own-world", "comparing"])
 def test_commands_print_what_their_page_shows(
     name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -216,9 +218,54 @@ def test_the_lines_of_the_page_on_journals_read_one(tmp_path: Path) -> None:
         assert output("-c", block, cwd=tmp_path)
 
 
+def test_the_lines_of_the_page_on_comparing_compare(tmp_path: Path) -> None:
+    sweep = "sweep throwing --learners random,sgim-acts --seeds 0-1 --movements 40 --jobs 1"
+    output("-m", "sgim.cli", *sweep.split(), "--out", "runs/short", cwd=tmp_path)
+    (block,) = python_blocks("docs/comparing.md")
+    assert output("-c", block, cwd=tmp_path).startswith("sgim-acts ")
+
+
 def test_the_lines_of_the_page_on_configurations_run(tmp_path: Path) -> None:
     (block,) = python_blocks("docs/configurations.md")
     output("-c", block, cwd=tmp_path)
+
+
+def test_the_file_and_the_lines_of_the_page_on_demonstrations_teach(tmp_path: Path) -> None:
+    page = (ROOT / "docs/demonstrations.md").read_text("utf-8")
+    (file,) = re.findall(r"```json\n(.*?)```", page, re.DOTALL)
+    (tmp_path / "ada.json").write_text(file, "utf-8")
+    (block,) = python_blocks("docs/demonstrations.md")
+    fitted, learned = output("-c", block, cwd=tmp_path).splitlines()
+    assert float(fitted.split()[2]) < 20
+    assert float(fitted.split()[-1]) == pytest.approx(0.27, abs=0.05)
+    assert float(learned) > -0.1
+    assert (tmp_path / "copy.json").is_file()
+
+
+def test_the_page_on_demonstrations_shows_refusals_as_they_are(tmp_path: Path) -> None:
+    page = (ROOT / "docs/demonstrations.md").read_text("utf-8")
+    (file,) = re.findall(r"```json\n(.*?)```", page, re.DOTALL)
+    (shown,) = re.findall(r"```text\n(.*?)```", page, re.DOTALL)
+    damages = [
+        ("[0.13, -0.57]", "[NaN, -0.57]"),
+        ("0.35, 0.6", "0.35, 0.35"),
+        ('"hit": [0.27]', '"hitt": [0.27]'),
+        ('"unit": "m"', '"unit": "cm"'),
+    ]
+    for (right, wrong), line in zip(damages, shown.splitlines(), strict=True):
+        assert right in file
+        (tmp_path / "ada.json").write_text(file.replace(right, wrong), "utf-8")
+        with pytest.raises(sgim.SgimError) as refused:
+            load_demonstrations(tmp_path / "ada.json", AirHockey().task)
+        assert str(refused.value) == line.replace("ada.json", str(tmp_path / "ada.json"), 1)
+
+
+def test_the_lines_of_the_page_on_air_hockey_print_and_draw_what_it_shows(tmp_path: Path) -> None:
+    shares, figure = python_blocks("docs/hockey.md")
+    page = (ROOT / "docs/hockey.md").read_text("utf-8")
+    assert output("-c", shares, cwd=tmp_path) in page
+    output("-c", figure, cwd=tmp_path)
+    assert (tmp_path / "hockey.png").read_bytes().startswith(b"\x89PNG")
 
 
 # What tables say.

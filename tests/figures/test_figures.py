@@ -5,7 +5,6 @@ import subprocess
 import sys
 from pathlib import Path
 
-import numpy as np
 import pytest
 
 from sgim.errors import SgimError
@@ -19,19 +18,6 @@ from sgim.spaces import Box, Choices
 from sgim.task import Task
 
 THROWING = experiment("throwing")
-
-
-@pytest.fixture(scope="module")
-def runs(tmp_path_factory: pytest.TempPathFactory) -> list[Path]:
-    folder = tmp_path_factory.mktemp("figures")
-    paths = []
-    for learner in ("sgim-acts", "random", "mimicry:T2"):
-        for seed in (0, 1, 2):
-            path = THROWING.journal_path(learner, seed, folder=folder)
-            with THROWING.start(learner, path, seed=seed, evaluate_every=50) as run:
-                run.go(100)
-            paths.append(path)
-    return paths
 
 
 @pytest.fixture
@@ -74,15 +60,6 @@ def test_error_curves_have_a_panel_a_kind_and_a_line_a_learner(runs: list[Path])
         "sgim-acts (3 runs)",
     ]
     assert saved(figure)
-
-
-def test_a_curve_is_the_median_of_its_runs(runs: list[Path]) -> None:
-    from sgim.runs.summary import read_run
-
-    errors = [[e.errors["total"] for e in read_run(path).evaluations] for path in runs[:3]]
-    line = error_curves(runs[:3]).axes[2].lines[0]
-    np.testing.assert_array_equal(line.get_xdata(), [0, 50, 100])
-    np.testing.assert_allclose(line.get_ydata(), np.median(errors, axis=0))
 
 
 def test_a_world_of_one_kind_has_one_panel_in_its_unit(tmp_path: Path) -> None:

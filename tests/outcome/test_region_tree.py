@@ -10,8 +10,9 @@ from hypothesis import strategies as st
 from tests.helpers import PlainProgress, report
 
 from sgim.outcome.interest import EpisodeReport
+from sgim.outcome.partition import Region
 from sgim.outcome.progress import CompetenceChange, Record
-from sgim.outcome.region_tree import Region, RegionTree
+from sgim.outcome.region_tree import RegionTree
 from sgim.records import Goal
 from sgim.spaces import Box, Choices
 from sgim.streams import Streams

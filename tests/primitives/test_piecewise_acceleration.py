@@ -69,6 +69,13 @@ def test_a_recording_may_start_at_any_time() -> None:
     assert policy[1::2].sum() == pytest.approx(clean.times[-1])
 
 
+def test_a_recording_in_degrees_is_fitted_as_one_in_radians() -> None:
+    clean = PRIMITIVE.trajectory(random_policy(0), rate=50)
+    degrees = Trajectory(clean.times, np.degrees(clean.positions), clean.joints, "deg")
+    _, residual = PRIMITIVE.fit(degrees)
+    assert residual < 1e-3
+
+
 def test_a_fit_is_deterministic() -> None:
     trajectory = add_noise(PRIMITIVE.trajectory(random_policy(1), rate=30), 0.01)
     np.testing.assert_array_equal(PRIMITIVE.fit(trajectory)[0], PRIMITIVE.fit(trajectory)[0])
@@ -123,7 +130,7 @@ def test_the_first_start_finds_the_segments_of_a_noise_free_movement() -> None:
     ("trajectory", "message"),
     [
         (Trajectory([0, 1], [[0], [1]], ["elbow"]), "joints elbow in rad, expected shoulder"),
-        (Trajectory([0, 1], [[0], [1]], ["shoulder"], unit="deg"), "in deg, expected"),
+        (Trajectory([0, 1], [[0], [1]], ["shoulder"], unit="turns"), "in turns, expected"),
         (Trajectory([0, 1], [[0, 0], [1, 1]], ["shoulder", "elbow"]), "shoulder, elbow"),
         (Trajectory([0, 7.1], [[0], [1]], ["shoulder"]), "can represent 7 s"),
     ],

@@ -6,8 +6,17 @@ from typing import Any
 import numpy as np
 import pytest
 
-from sgim.environments import ARMS, Environment, PlanarArm, ThrowingArm, throwing_teachers
+from sgim.environments import (
+    ARMS,
+    AirHockey,
+    Environment,
+    PlanarArm,
+    ThrowingArm,
+    hockey_teachers,
+    throwing_teachers,
+)
 from sgim.memory import Memory
+from sgim.outcome.expected_gain import ExpectedGain
 from sgim.outcome.interest import UniformGoals
 from sgim.outcome.progress import CompetenceChange, InterestMeasure, MeanProgress
 from sgim.outcome.region_tree import RegionTree
@@ -31,8 +40,11 @@ from sgim.testing import (
 )
 
 THROWING = ThrowingArm()
+HOCKEY = AirHockey()
 ENVIRONMENTS: dict[str, Environment] = {
     "throwing arm": THROWING,
+    "air hockey": HOCKEY,
+    "air hockey without an obstacle": AirHockey(obstacle=None),
     "arm with noise": PlanarArm(7),
     "arm without noise": PlanarArm(7, noise=0),
     "arm with a varying start": PlanarArm(3, vary_start=True),
@@ -43,6 +55,7 @@ LABELS = Choices(["red", "green", "blue"])
 PLACE = Box([0, 0], [1, 3])
 TASKS = {
     "throwing": THROWING.task,
+    "air hockey": HOCKEY.task,
     "hand": PlanarArm(7).task,
     "hand with a varying start": PlanarArm(3, vary_start=True).task,
     "one joint": PlanarArm(1).task,
@@ -64,6 +77,11 @@ def test_every_environment_passes(environment: Environment) -> None:
 @pytest.mark.parametrize("name", throwing_teachers())
 def test_every_throwing_teacher_passes(name: str) -> None:
     check_teacher(throwing_teachers()[name], THROWING.task)
+
+
+@pytest.mark.parametrize("name", hockey_teachers())
+def test_every_hockey_teacher_passes(name: str) -> None:
+    check_teacher(hockey_teachers()[name], HOCKEY.task)
 
 
 def test_a_teacher_who_always_declines_passes() -> None:
@@ -95,6 +113,26 @@ def test_every_region_tree_passes(task: Task, credit: Any, measure: Any) -> None
     check_interest_map(make, task.goal_spaces, list(MODES), context_space=task.context_space)
 
 
+@pytest.mark.parametrize("task", VECTOR_TASKS.values(), ids=VECTOR_TASKS.keys())
+@pytest.mark.parametrize("goals", [1, 3])
+def test_every_map_of_expected_gain_passes(task: Task, goals: int) -> None:
+    def lacks(chosen: Any, context: Any) -> Any:
+        return np.array([task.goal_spaces[g.kind].encode(g.point)[0] for g in chosen])
+
+    def make() -> ExpectedGain:
+        return ExpectedGain(
+            task.goal_spaces,
+            MODES,
+            lacks,
+            Streams(0),
+            context_space=task.context_space,
+            capacity=8,
+            goals=goals,
+        )
+
+    check_interest_map(make, task.goal_spaces, list(MODES), context_space=task.context_space)
+
+
 @NAMED
 def test_uniform_goals_pass(task: Task) -> None:
     spaces = task.goal_spaces
@@ -119,7 +157,7 @@ def test_the_nearest_model_passes(task: Task) -> None:
 EXPLORERS: Mapping[str, Callable[[NearestModel], Explorer]] = {
     "Nelder-Mead": NelderMeadSearch,
     "local search": LocalSearch,
-    "local search, large steps": lambda model: LocalSearch(model, differential_weight=3.0),
+    "local search, large variations": lambda model: LocalSearch(model, variation=(1.0, 30.0)),
     "noise around the nearest": NoisyNearest,
     "noise from the first trial on": lambda model: NoisyNearest(model, bootstrap=0),
     "mimicry": lambda model: Mimicry(model.memory.task.policy_space, 0.3),

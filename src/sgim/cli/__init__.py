@@ -26,6 +26,7 @@ COMMANDS = {
     "show": "What a run did: errors and choices, also while it goes on.",
     "answer": "Ask what was learned: the policy for a goal.",
     "sweep": "Run many learners with many seeds side by side.",
+    "compare": "Which learner is better over its seeds, and whether that could be chance.",
     "plot": "Draw errors, choices and explored outcomes.",
 }
 

@@ -2,7 +2,7 @@
 
 from sgim.environments.arm import ARMS, PlanarArm
 from sgim.environments.base import Environment, MinimalEnvironment, draw_context, execute_all
-from sgim.environments.benchmark_goals import reachable_goals, throwing_goals
+from sgim.environments.benchmark_goals import hockey_goals, reachable_goals, throwing_goals
 from sgim.environments.fishing import (
     FishingFloor,
     FishingRod,
@@ -10,11 +10,14 @@ from sgim.environments.fishing import (
     fishing_goals,
     fishing_teacher,
 )
+from sgim.environments.hockey import AirHockey
+from sgim.environments.hockey_teacher import hockey_teachers
 from sgim.environments.throwing import ThrowingArm
 from sgim.environments.throwing_teachers import throwing_teachers
 
 __all__ = [
     "ARMS",
+    "AirHockey",
     "Environment",
     "FishingFloor",
     "FishingRod",
@@ -26,6 +29,8 @@ __all__ = [
     "fishing_demonstrations",
     "fishing_goals",
     "fishing_teacher",
+    "hockey_goals",
+    "hockey_teachers",
     "reachable_goals",
     "throwing_goals",
     "throwing_teachers",

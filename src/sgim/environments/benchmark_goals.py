@@ -11,6 +11,7 @@ from sgim.records import Goal
 
 THROWING_TABLE = "throwing_goals.csv"
 PLACING_GOALS = 100
+HOCKEY_GOALS = 41
 
 
 def throwing_goals() -> list[Goal]:
@@ -22,6 +23,12 @@ def throwing_goals() -> list[Goal]:
     throws = [Goal("throw", point) for point in read_table(THROWING_TABLE)]
     angles = -np.pi + (np.arange(PLACING_GOALS) + 0.5) * 2 * np.pi / PLACING_GOALS
     return throws + [Goal("place", angles[k : k + 1]) for k in range(PLACING_GOALS)]
+
+
+def hockey_goals() -> list[Goal]:
+    """Every 0.05 m of the top border, from -1 to 1: 41 goals."""
+    half = HOCKEY_GOALS // 2
+    return [Goal("hit", np.array([k / half])) for k in range(-half, half + 1)]
 
 
 def reachable_goals(name: str) -> list[Goal]:

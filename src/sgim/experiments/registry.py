@@ -7,10 +7,12 @@ from functools import partial
 
 from sgim.environments.arm import ARMS, PlanarArm
 from sgim.environments.base import MinimalEnvironment
-from sgim.environments.benchmark_goals import reachable_goals, throwing_goals
+from sgim.environments.benchmark_goals import hockey_goals, reachable_goals, throwing_goals
 from sgim.environments.fishing import FishingFloor, FishingRod
 from sgim.environments.fishing.demonstrators import DEMONSTRATORS, fishing_teacher
 from sgim.environments.fishing.goals import fishing_goals, floor_goals
+from sgim.environments.hockey import AirHockey
+from sgim.environments.hockey_teacher import hockey_teachers
 from sgim.environments.throwing import ThrowingArm
 from sgim.environments.throwing_teachers import throwing_teachers
 from sgim.errors import unknown
@@ -23,6 +25,10 @@ DEFAULT_ARM = "7-tight"
 
 def _throwing_benchmark(environment: MinimalEnvironment) -> Benchmark:
     return Benchmark(throwing_goals(), environment)
+
+
+def _hockey_benchmark(environment: MinimalEnvironment) -> Benchmark:
+    return Benchmark(hockey_goals(), environment)
 
 
 def _arm_benchmark(name: str, environment: MinimalEnvironment) -> Benchmark:
@@ -105,7 +111,16 @@ THROWING = Experiment(
     make_teachers=throwing_teachers,
 )
 
-EXPERIMENTS = {e.name: e for e in [THROWING, *FISHING, *(_arm(name) for name in ARMS)]}
+HOCKEY = Experiment(
+    name="hockey",
+    summary="Hit a puck so that it meets the far border at a given place (section 4.2.2).",
+    environment=AirHockey,
+    benchmark=_hockey_benchmark,
+    teachers={"expert": "hits the right quarter, most of it hidden by an obstacle"},
+    make_teachers=hockey_teachers,
+)
+
+EXPERIMENTS = {e.name: e for e in [THROWING, HOCKEY, *FISHING, *(_arm(name) for name in ARMS)]}
 
 
 def experiment(name: str) -> Experiment:

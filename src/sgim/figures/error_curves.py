@@ -1,8 +1,8 @@
-"""How the errors of learners fall: medians and interquartile bands over seeds."""
+"""How the errors of learners fall, over movements or over what they cost."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from math import ceil
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -11,7 +11,10 @@ import numpy as np
 
 from sgim.errors import SgimError
 from sgim.experiments import EXPERIMENTS
-from sgim.figures.style import MARKERS, OKABE_ITO, by_learner, new_figure, read_runs, tidy
+from sgim.figures.curves import BANDS, Band, Curve, curve
+from sgim.figures.style import MARKERS, OKABE_ITO, NothingToDrawError, new_figure, read_runs, tidy
+from sgim.runs.costs import Prices, Spending, read_spending
+from sgim.runs.measured import by_learner
 from sgim.runs.summary import RecordedRun
 from sgim.spaces import FloatArray
 
@@ -27,58 +30,62 @@ _MOST_MARKERS = 20
 
 _LEGEND_SIZE = 8.0  # points
 
+_UNITS = ((3600.0, "h"), (60.0, "min"), (1.0, "s"))
 
-def error_curves(paths: Iterable[str | Path]) -> Figure:
-    """Draw errors over movements: a panel for each kind of goal, and one for their mean.
 
-    Each learner has a line, the median over its runs, and a band between the quartiles.
+def error_curves(
+    journals: Iterable[str | Path | RecordedRun],
+    *,
+    band: Band = "interval",
+    prices: Prices | None = None,
+) -> Figure:
+    """Draw errors of learners: a panel for each kind of goal, and one for their mean.
+
+    Each learner has a line and a band over its runs (figures 4.3.7 and 4.3.8 of the thesis).
 
     Args:
-        paths: Journals of runs of one experiment.
+        journals: Journals of runs of one experiment, or the runs read already.
+        band: ``"interval"``: the line is the interquartile mean, the band its pointwise bootstrap
+            interval; ``"quartiles"``: the median, and the quartiles.
+        prices: Draw over the time of robot and persons instead of over movements: as recorded,
+            and at these prices where nothing is recorded.
 
     Raises:
         SgimError: If they are of different experiments, or none was ever evaluated.
+        NothingToDrawError: If prices are given, but nobody was asked, and no time is recorded:
+            there is no cost but the movements.
         JournalError: If one cannot be read.
     """
-    runs = [run for run in read_runs(paths) if run.evaluations]
+    runs = [run for run in read_runs(journals) if run.evaluations]
     if not runs:
         raise SgimError("no run was evaluated: there are no errors to draw")
     groups = by_learner(runs)
     kinds = list(runs[0].evaluations[-1].errors)
     if all(e.errors["total"] == e.errors[kinds[0]] for run in runs for e in run.evaluations):
         kinds.remove("total")  # there is one kind only
+    spent = None if prices is None else _spending(groups)
     labels = [
         name if len(members) == 1 else f"{name} ({len(members)} runs)"
         for name, members in groups.items()
     ]
     width = max(4.0, 3.1 * len(kinds))
     columns = _legend_columns(labels, 72 * width)
-    figure = new_figure(width, 3.2 + 0.18 * ceil(len(labels) / columns))
+    figure = new_figure(width, 3.4 + 0.18 * ceil(len(labels) / columns))
     panels = figure.subplots(1, len(kinds), squeeze=False)[0]
     for panel, kind in zip(panels, kinds, strict=True):
-        medians = []
-        for i, (label, members) in enumerate(zip(labels, groups.values(), strict=True)):
-            movements, quartiles = _quartiles(members, kind)
-            colour = OKABE_ITO[i % len(OKABE_ITO)]
-            line, marker = ("-", "--", ":")[i // len(OKABE_ITO) % 3], MARKERS[i % len(MARKERS)]
-            panel.fill_between(
-                movements, quartiles[0], quartiles[2], color=colour, alpha=0.18, linewidth=0
-            )
-            panel.plot(
-                movements,
-                quartiles[1],
-                line + marker,
-                color=colour,
-                label=label,
-                markersize=3.5,
-                markevery=ceil(len(movements) / _MOST_MARKERS) or 1,
-                linewidth=1.4,
-            )
-            medians.append(quartiles[1])
+        curves = []
+        for name, members in groups.items():
+            costs = None
+            if spent is not None and prices is not None:
+                costs = [one.cost(prices) for one in spent[name]]
+            curves.append(curve(members, kind, band, costs))
+        unit, label = _axis(curves, spent, prices)
+        for i, (name, drawn) in enumerate(zip(labels, curves, strict=True)):
+            _draw(panel, drawn, unit, name, i)
         panel.set_title("total (mean of the kinds)" if kind == "total" else kind)
-        panel.set_xlabel("movements")
+        panel.set_xlabel(label)
         panel.set_xlim(left=0)
-        _scale(panel, np.concatenate(medians))
+        _scale(panel, np.concatenate([drawn.middle for drawn in curves]))
         panel.grid(axis="y", color="#E5E5E5", linewidth=0.6)
         tidy(panel)
     experiment = EXPERIMENTS.get(runs[0].experiment or "")
@@ -89,8 +96,52 @@ def error_curves(paths: Iterable[str | Path]) -> Figure:
         ncols=columns,
         frameon=False,
         fontsize=_LEGEND_SIZE,
+        title=BANDS[band] if len(runs) > len(groups) else None,
+        title_fontsize=_LEGEND_SIZE,
     )
     return figure
+
+
+def _spending(groups: Mapping[str, Sequence[RecordedRun]]) -> dict[str, list[Spending]]:
+    spent = {name: [read_spending(run.path) for run in runs] for name, runs in groups.items()}
+    if not any(one.recorded or one.asked.any() for runs in spent.values() for one in runs):
+        raise NothingToDrawError("nobody was asked, and no time is recorded")
+    return spent
+
+
+def _draw(axes: Axes, drawn: Curve, unit: float, label: str, number: int) -> None:
+    """Draw the curve of one learner, unlike those of the others in colour, line and marker."""
+    colour = OKABE_ITO[number % len(OKABE_ITO)]
+    line = ("-", "--", ":")[number // len(OKABE_ITO) % 3]
+    axes.fill_between(drawn.x / unit, drawn.low, drawn.high, color=colour, alpha=0.18, linewidth=0)
+    axes.plot(
+        drawn.x / unit,
+        drawn.middle,
+        line + MARKERS[number % len(MARKERS)],
+        color=colour,
+        label=label,
+        markersize=3.5,
+        markevery=ceil(len(drawn.x) / _MOST_MARKERS) or 1,
+        linewidth=1.4,
+    )
+
+
+def _axis(
+    curves: Sequence[Curve],
+    spent: Mapping[str, Sequence[Spending]] | None,
+    prices: Prices | None,
+) -> tuple[float, str]:
+    """The unit of the axis, in what curves have, and its label."""
+    if spent is None or prices is None:
+        return 1.0, "movements"
+    end = max(float(drawn.x[-1]) for drawn in curves if len(drawn.x))
+    unit, name = next((u, n) for u, n in _UNITS if end >= 2 * u or u == 1)
+    all_spent = [one for members in spent.values() for one in members]
+    if all(not (s.movements.any() or s.requests.any()) for s in all_spent):
+        return unit, f"time of robot and persons ({name})"
+    at = f"{prices.robot_seconds:g} s a movement, {prices.person_seconds:g} s a request"
+    unless = ",\nwhere not recorded" if any(s.recorded for s in all_spent) else ""
+    return unit, f"time of robot and persons ({name})\n{at}{unless}"
 
 
 def _legend_columns(labels: Sequence[str], width: float) -> int:
@@ -120,19 +171,3 @@ def _scale(axes: Axes, values: FloatArray) -> None:
     axes.yaxis.set_major_locator(LogLocator(subs=steps))
     axes.yaxis.set_major_formatter(lambda value, _: f"{value:g}")
     axes.yaxis.set_minor_formatter(NullFormatter())
-
-
-def _quartiles(runs: Sequence[RecordedRun], kind: str) -> tuple[FloatArray, FloatArray]:
-    """Quartiles of the errors wherever half of the runs or more were evaluated.
-
-    Returns:
-        Movements, shape ``(n,)``, and lower quartiles, medians and upper quartiles, ``(3, n)``.
-    """
-    errors: dict[int, list[float]] = {}
-    for run in runs:
-        for evaluation in run.evaluations:
-            if kind in evaluation.errors:
-                errors.setdefault(evaluation.movements, []).append(evaluation.errors[kind])
-    shown = sorted(m for m, values in errors.items() if 2 * len(values) >= len(runs))
-    columns = [np.percentile(errors[m], [25, 50, 75]) for m in shown]
-    return np.array(shown, dtype=np.float64), np.array(columns).reshape(-1, 3).T

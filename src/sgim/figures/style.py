@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -22,29 +22,23 @@ _FAMILIES = {"mimic": ("#8C2D04", "#FDD0A2"), "emulate": ("#084594", "#C6DBEF")}
 _ALONE = ("#4D4D4D", "#A6A6A6", "#D9D9D9")
 
 
-def read_runs(paths: Iterable[str | Path]) -> list[RecordedRun]:
-    """The runs of these journals.
+class NothingToDrawError(SgimError):
+    """The runs have nothing of what this figure is about, and nothing is amiss with them."""
+
+
+def read_runs(journals: Iterable[str | Path | RecordedRun]) -> list[RecordedRun]:
+    """The runs of these journals; those that were read already stay as they are.
 
     Raises:
         SgimError: If there is none, or they are of different experiments.
         JournalError: If one cannot be read.
     """
-    runs = [read_run(path) for path in paths]
+    runs = [one if isinstance(one, RecordedRun) else read_run(one) for one in journals]
     experiments = {run.experiment for run in runs}
     if len(experiments) != 1:
         names = ", ".join(sorted(str(name) for name in experiments)) or "no journal"
         raise SgimError(f"a figure shows runs of one experiment, but here are {names}")
     return runs
-
-
-def by_learner(runs: Sequence[RecordedRun]) -> dict[str, list[RecordedRun]]:
-    """Runs by the name of their learner, with its configuration where those differ."""
-    several = len({run.configuration for run in runs}) > 1
-    groups: dict[str, list[RecordedRun]] = {}
-    for run in runs:
-        name = run.learner or run.path.stem
-        groups.setdefault(f"{name} ({run.configuration})" if several else name, []).append(run)
-    return dict(sorted(groups.items()))
 
 
 def mode_colours(modes: Iterable[str]) -> dict[str, str]:

@@ -1,5 +1,6 @@
 """The middle level: which goal to aim at, by competence, progress and interest."""
 
+from sgim.outcome.expected_gain import ExpectedGain
 from sgim.outcome.interest import EpisodeReport, InterestMap, UniformGoals
 from sgim.outcome.progress import CompetenceChange, InterestMeasure, MeanProgress, Record
 from sgim.outcome.region_tree import RegionTree
@@ -8,6 +9,7 @@ from sgim.outcome.table import InterestTable
 __all__ = [
     "CompetenceChange",
     "EpisodeReport",
+    "ExpectedGain",
     "InterestMap",
     "InterestMeasure",
     "InterestTable",

@@ -1,4 +1,4 @@
-"""A partition of goals (and contexts) into regions of different interest, with a list per mode."""
+"""Interest in regions of goals (and contexts) by recent progress, with a list per mode."""
 
 from __future__ import annotations
 
@@ -8,39 +8,15 @@ from typing import Any, Literal
 import numpy as np
 
 from sgim.outcome.interest import EpisodeReport
+from sgim.outcome.partition import Partition, Region
 from sgim.outcome.progress import InterestMeasure, Record
 from sgim.outcome.weights import BlockSums
 from sgim.records import Goal
-from sgim.spaces import Box, FloatArray, Space
+from sgim.spaces import FloatArray, Space
 from sgim.streams import Streams
 
 
-class Region:
-    """A box of goals of one kind: a leaf of the tree, or an inner node after it was split.
-
-    Attributes:
-        kind: Goal kind.
-        low: Lower corner in the unit box, goal coordinates first, then context coordinates.
-        high: Upper corner.
-        leaf: Its row in the map's table of interests, while it is a leaf.
-        records: For each mode, what was attempted here, oldest first.
-        children: The two halves below and above ``cut`` along ``axis``, once split.
-    """
-
-    __slots__ = ("axis", "children", "cut", "high", "kind", "leaf", "low", "records")
-
-    def __init__(self, kind: str, low: FloatArray, high: FloatArray, leaf: int, modes: int) -> None:
-        self.kind = kind
-        self.low = low
-        self.high = high
-        self.leaf = leaf
-        self.records: list[list[Record]] = [[] for _ in range(modes)]
-        self.axis = 0
-        self.cut = 0.0
-        self.children: tuple[Region, Region] | None = None
-
-
-class RegionTree:
+class RegionTree(Partition):
     """Interest over regions and modes (thesis algorithms 3.1.2 and 4.3.2).
 
     Every kind starts as one region. A region whose list for one mode exceeds ``capacity`` is
@@ -83,47 +59,33 @@ class RegionTree:
         patience: float = 100.0,
         credit: Literal["chosen", "pursued"] = "pursued",
     ) -> None:
-        for what, space in [*goal_spaces.items(), ("context", context_space or Box(0, 1))]:
-            if not isinstance(space, Box):
-                raise TypeError(f"a region tree needs boxes, but {what!r} is {space!r}")
-        self.spaces: dict[str, Box] = {k: s for k, s in goal_spaces.items() if isinstance(s, Box)}
-        self.context_space = context_space
+        super().__init__(goal_spaces, streams, context_space=context_space, candidates=candidates)
         self.modes = {name: i for i, name in enumerate(modes)}
         self.costs = np.array(list(modes.values()), dtype=np.float64)
         self.measure = measure
-        self.streams = streams
         self.capacity = capacity
-        self.candidates = candidates
         self.probabilities = probabilities
         self.prior = prior
         self.staleness = staleness
         self.patience = patience
         self.credit = credit
-        contexts = (context_space.dimension or 0) if context_space else 0
-        self.leaves: list[Region] = []
         self._interest = np.empty((64, len(self.modes)))
         self._tried = np.empty((64, len(self.modes)))
         self._episode = 0
         self._sums = BlockSums()
-        self._draws = 2 + contexts + max(box.dimension for box in self.spaces.values())
+        self._draws = 2 + self.contexts + max(box.dimension for box in self.spaces.values())
         self._names = tuple(modes)
-        self.roots = {}
-        for kind, box in self.spaces.items():
-            d = box.dimension + contexts
-            root = self._add_leaf(Region(kind, np.zeros(d), np.ones(d), 0, len(self.modes)))
+        for kind in self.spaces:
+            root = self.plant(kind, [[] for _ in self.modes])
+            self._reserve()
             self._interest[root.leaf] = prior / self.costs
             self._tried[root.leaf] = 0.0
             self._sums.refresh(self._interest[: len(self.leaves)], root.leaf)
-            self.roots[kind] = root
 
-    def _add_leaf(self, region: Region) -> Region:
-        n = len(self.leaves)
-        if n == len(self._interest):
+    def _reserve(self) -> None:
+        if len(self.leaves) > len(self._interest):
             self._interest = np.concatenate((self._interest, np.empty_like(self._interest)))
             self._tried = np.concatenate((self._tried, np.empty_like(self._tried)))
-        region.leaf = n
-        self.leaves.append(region)
-        return region
 
     def interests(self) -> FloatArray:
         """Interest of every leaf and mode, shape ``(leaves, modes)``, staleness included."""
@@ -134,22 +96,13 @@ class RegionTree:
             return interest + age / (age + self.patience) * (self.staleness / self.costs)
         return interest.copy()
 
-    def region_of(self, kind: str, place: Sequence[float] | FloatArray) -> Region:
-        """The leaf that contains a place of the unit box."""
-        region = self.roots[kind]
-        while region.children is not None:
-            region = region.children[bool(place[region.axis] > region.cut)]
-        return region
-
     def update(self, report: EpisodeReport) -> None:
         """Add the episode's progress to its region and mode; split the region if it is full."""
         self._episode = max(self._episode, report.episode + 1)
         mode = self.modes.get(report.mode)
         goal = report.chosen if self.credit == "chosen" else report.pursued
-        if mode is None or goal.kind not in self.spaces:
-            return
-        place = self._place(goal, report.context)
-        if not all(0.0 <= x <= 1.0 for x in place):
+        place = self.place_of(goal, report.context)
+        if mode is None or place is None:
             return
         region = self.region_of(goal.kind, place)
         records = region.records[mode]
@@ -160,53 +113,25 @@ class RegionTree:
             del records[0]
         self._sums.refresh(self._interest[: len(self.leaves)], region.leaf)
 
-    def _place(self, goal: Goal, context: Any) -> tuple[float, ...]:
-        place: list[float] = self.spaces[goal.kind].encode(goal.point).tolist()
-        if self.context_space is not None:
-            place += self.context_space.encode(context).tolist()
-        return tuple(place)
-
     def _split(self, region: Region, mode: int) -> bool:
-        """Split where n₁ · n₂ · |interest₁ − interest₂| is largest among random candidates."""
-        rng = self.streams("interest/split", len(self.leaves))
-        records, dimension = region.records[mode], len(region.low)
-        best_quality, best = -1.0, None
-        parted: set[tuple[int, int]] = set()
-        axes = rng.integers(dimension, size=self.candidates).tolist()
-        for axis, share in zip(axes, rng.random(self.candidates).tolist(), strict=True):
-            cut = region.low[axis] + share * (region.high[axis] - region.low[axis])
-            below = [r for r in records if r.place[axis] <= cut]
-            if 0 < len(below) < len(records) and (axis, len(below)) not in parted:
-                parted.add((axis, len(below)))  # another cut that parts them alike is no better
-                above = [r for r in records if r.place[axis] > cut]
-                gap = abs(self.measure.interest(below) - self.measure.interest(above))
-                quality = len(below) * len(above) * gap
-                if quality > best_quality:
-                    best_quality, best = quality, (axis, float(cut))
+        best = self.best_cut(region, region.records[mode], self.measure.interest)
         if best is None:
             return False
-        self._divide(region, *best)
-        return True
-
-    def _divide(self, region: Region, axis: int, cut: float) -> None:
-        middle_high, middle_low = region.high.copy(), region.low.copy()
-        middle_high[axis] = middle_low[axis] = cut
-        count = len(self.modes)
-        lower = Region(region.kind, region.low, middle_high, region.leaf, count)
-        upper = self._add_leaf(Region(region.kind, middle_low, region.high, 0, count))
-        self.leaves[region.leaf] = lower
-        self._interest[upper.leaf] = self._interest[region.leaf]
-        self._tried[upper.leaf] = self._tried[region.leaf]
+        axis, cut = best
+        lower, upper = self.divide(region, axis, cut)
+        self._reserve()
+        self._interest[upper.leaf] = self._interest[lower.leaf]
+        self._tried[upper.leaf] = self._tried[lower.leaf]
         for i, records in enumerate(region.records):
             for child in (lower, upper):
                 above = child is upper
-                child.records[i] = [r for r in records if (r.place[axis] > cut) == above]
+                child.records.append([r for r in records if (r.place[axis] > cut) == above])
                 if child.records[i]:
                     interest = self.measure.interest(child.records[i]) / self.costs[i]
                     self._interest[child.leaf, i] = interest
         self._sums.refresh(self._interest[: len(self.leaves)], upper.leaf)
-        region.axis, region.cut, region.children = axis, cut, (lower, upper)
         region.records = []
+        return True
 
     def choose(
         self, rng: np.random.Generator, modes: Sequence[str], context: Any
@@ -232,9 +157,7 @@ class RegionTree:
         if not self.staleness and self.context_space is None and len(columns) == len(self.modes):
             row, column = self._sums.draw(self._interest[: len(self.leaves)], pick)
             return self.leaves[row], self._names[column]
-        leaves: Sequence[int] = range(len(self.leaves))
-        if self.context_space is not None:
-            leaves = self._present(context)
+        leaves = self.present(context)
         interest = self.interests()[np.ix_(leaves, columns)]
         cumulated = (interest.ravel() - interest.min()).cumsum()
         total = cumulated[-1]
@@ -246,21 +169,11 @@ class RegionTree:
         row, column = divmod(chosen, len(columns))
         return self.leaves[leaves[row]], modes[column]
 
-    def _present(self, context: Any) -> list[int]:
-        """The leaves that contain the context."""
-        assert self.context_space is not None
-        place = np.clip(self.context_space.encode(context), 0.0, 1.0)
-        c = len(place)
-        return [
-            region.leaf
-            for region in self.leaves
-            if (region.low[-c:] <= place).all() and (place <= region.high[-c:]).all()
-        ]
-
     def _near_worst(self, region: Region, mode: int, elsewhere: FloatArray) -> FloatArray:
         """A point of the region a tenth of the way from its worst point to a random one."""
         records = region.records[mode] or [r for records in region.records for r in records]
         if not records:
             return elsewhere
-        worst = min(records, key=lambda r: r.competence).place[: len(elsewhere)]
-        return np.array(worst) + 0.1 * (elsewhere - worst)
+        place = min(records, key=lambda r: r.competence).place
+        worst: FloatArray = np.array(place[: len(elsewhere)])
+        return worst + 0.1 * (elsewhere - worst)

@@ -1,7 +1,8 @@
-"""Goal-directed local search: steps on a local linear map, and differential steps."""
+"""Goal-directed local search: varied steps on a local linear map."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from typing import Any
 
@@ -11,6 +12,10 @@ from sgim.policy.explorer import Episode
 from sgim.policy.model import NearestModel
 from sgim.records import Trial
 from sgim.spaces import Box, FloatArray
+
+_BLUR = 0.1  # Policies this much nearer than the farthest, squared, weigh alike: noise.
+_WIDEST = 1.0  # Of the standard deviation of a varied policy's coordinates in the unit box.
+_SAME = 1e-20  # Of a squared distance between policies in the unit box.
 
 
 class _State:
@@ -24,8 +29,6 @@ class _State:
         "keys",
         "policies",
         "proposed",
-        "steps",
-        "turn",
     )
 
     def __init__(
@@ -44,8 +47,6 @@ class _State:
         self.keys[:n] = keys
         self.costs: list[float] = distances.tolist()
         self.best = 0 if n else -1
-        self.turn = -1
-        self.steps: list[FloatArray] = []
         self.proposed = policies[:0]
 
     def aim(self, goal: FloatArray) -> None:
@@ -70,24 +71,29 @@ class _State:
 
 
 class LocalSearch:
-    """Alternates steps on a local linear map with differential steps.
+    """Steps on a local linear map, with variations of all sizes.
 
     Starting from the remembered trials with the outcomes nearest to the goal, to which the
-    episode's own are added: (a) combine the offsets of their policies from the best one so that
-    the offsets of their outcomes add up to what the best one lacks, by least squares weighted by
-    the inverse squared distance in policy space, and step no farther than the nearest of them
-    are; (b) add a scaled difference of two of the policies to the best one, as differential
-    evolution does (Storn and Price 1997). With a probability equal to the goal's cost, and no
-    less than ``least_global``, try a random policy instead (thesis algorithm 3.2.4).
+    episode's own are added: take the best of them, and those ``within`` whose policies are
+    nearest to its own. Combine the offsets of their policies so that the offsets of their
+    outcomes add up to what the best one lacks, by least squares weighted by the inverse squared
+    distance in policy space; step no farther than the farthest of them is. So the map is fitted
+    where it is used: trials with like outcomes but unlike policies say nothing about the step.
+
+    A random variation is added, whose effect on the outcome is expected to be between a small
+    part of what is lacking and more than that, all orders of size alike: small ones home in where
+    the map is good, large ones explore where it is not, or where outcomes are noisy. With a
+    probability equal to the goal's cost, and no less than ``least_global``, a random policy is
+    tried instead (thesis algorithm 3.2.4).
 
     Contexts are part of the outcomes here, so a step also makes up for the present context.
 
     Args:
         model: The memory's model; the policy space must be a `Box`.
         budget: Movements an episode usually has; only a hint for allocation.
-        within: A linear step is no longer than the distance of so many of the policies.
-        differential_weight: Largest weight F of the difference.
-        differential_block: How many differences are drawn at once.
+        within: How many policies the linear map is fitted to.
+        variation: Smallest and largest size of the variation's effect on the outcome, as a share
+            of what is lacking.
         least_global: Least probability of a random policy.
         reached_share: An episode has nothing left to gain when its goal is within the task's
             tolerance and its cost at most this share of what it was before.
@@ -97,10 +103,9 @@ class LocalSearch:
         self,
         model: NearestModel,
         *,
-        budget: int = 20,
+        budget: int = 2,
         within: int = 8,
-        differential_weight: float = 0.7,
-        differential_block: int = 3,
+        variation: tuple[float, float] = (0.03, 1.5),
         least_global: float = 0.02,
         reached_share: float = 0.5,
     ) -> None:
@@ -111,8 +116,7 @@ class LocalSearch:
         self.space = space
         self.budget = budget
         self.within = within
-        self.differential_weight = differential_weight
-        self.differential_block = differential_block
+        self.variation = variation
         self.least_global = least_global
         self.reached_share = reached_share
 
@@ -136,74 +140,74 @@ class LocalSearch:
         episode.state.aim(self.model.goal_key(episode.goal, episode.context))
 
     def propose(self, episodes: Sequence[Episode]) -> list[Any]:
-        """A random, linear or differential step for each episode."""
-        points: list[FloatArray] = []
-        linear: dict[int, list[int]] = {}
+        """A step and a variation for each episode, or a random policy."""
+        points = np.empty((len(episodes), self.space.dimension))
+        stepping: dict[int, list[int]] = {}
         for i, episode in enumerate(episodes):
             state: _State = episode.state
-            state.turn += 1
             cost = min(1.0, state.costs[state.best]) if state.count else 1.0
-            if state.count == 0 or episode.rng.random() < max(self.least_global, cost):
-                points.append(episode.rng.random(self.space.dimension))
-            elif state.turn % 2 == 0 and state.count > 2:
-                linear.setdefault(len(state.goal), []).append(i)
-                points.append(state.goal)
+            if state.count < 3 or episode.rng.random() < max(self.least_global, cost):
+                points[i] = episode.rng.random(self.space.dimension)
             else:
-                points.append(self._differential(state, episode.rng))
-        for chosen in linear.values():
-            steps = self._linear_steps([episodes[i].state for i in chosen])
-            for i, point in zip(chosen, steps, strict=True):
-                points[i] = point
-        clipped = np.minimum(np.maximum(np.array(points), 0.0), 1.0)
+                stepping.setdefault(len(state.goal), []).append(i)
+        for chosen in stepping.values():
+            points[chosen] = self._steps([episodes[i] for i in chosen])
+        clipped = np.minimum(np.maximum(points, 0.0), 1.0)
         for episode, point in zip(episodes, clipped, strict=True):
             episode.state.proposed = point
         return list(self.space.decode(clipped))
 
-    def _differential(self, state: _State, rng: np.random.Generator) -> FloatArray:
-        """The next of a few differential steps that are drawn together."""
-        if not len(state.steps):
-            one, other, share = rng.random((3, self.differential_block))
-            pairs = (one * state.count).astype(np.intp), (other * state.count).astype(np.intp)
-            apart = state.policies[pairs[0]] - state.policies[pairs[1]]
-            state.steps = list(apart * (self.differential_weight * share)[:, None])
-        point: FloatArray = state.policies[state.best] + state.steps.pop()
-        return point
-
-    def _linear_steps(self, states: Sequence[_State]) -> FloatArray:
-        """Where each state's local linear map puts its goal, shape ``(states, dimension)``.
+    def _steps(self, episodes: Sequence[Episode]) -> FloatArray:
+        """Where each state's local linear map puts its goal, varied: ``(episodes, dimension)``.
 
         Arrays are stacked, so that each state's numbers go through the same operations on the
         same shapes however many there are.
         """
+        states: list[_State] = [episode.state for episode in episodes]
         if len(states) == 1:
             (state,) = states
             policies, keys = state.policies[None], state.keys[None]
-            start, origin = policies[:, state.best], keys[:, state.best]
-            goals = state.goal[None]
         else:
             policies = np.array([s.policies for s in states])
             keys = np.array([s.keys for s in states])
-            start = np.array([s.policies[s.best] for s in states])
-            origin = np.array([s.keys[s.best] for s in states])
-            goals = np.array([s.goal for s in states])
-        apart = policies - start[:, None]
-        effects = keys - origin[:, None]
+        every = np.arange(len(states))[:, None]
+        best = np.array([[s.best] for s in states])
+        start, origin = policies[every, best], keys[every, best]
+        apart = policies - start
         squares = np.einsum("bij,bij->bi", apart, apart)
         for i, state in enumerate(states):
             squares[i, state.count :] = np.inf
-        reach = np.partition(squares, self.within, axis=1)[:, self.within]
-        for i, state in enumerate(states):
-            if state.count <= self.within:
-                reach[i] = squares[i, : state.count].max()
-        weights = 1.0 / (squares + (0.01 * reach + 1e-300)[:, None])
+        squares[squares < _SAME] = np.inf  # the best one itself, and its copies, show no way
+        near = np.argpartition(squares, self.within - 1, axis=1)[:, : self.within]
+        squares, apart = squares[every, near], apart[every, near]
+        known = np.isfinite(squares)
+        squares = np.where(known, squares, 0.0)
+        reach = squares.max(axis=1)
+        weights = known / (squares + (_BLUR * reach + 1e-300)[:, None])
+        effects = keys[every, near] - origin
         weighted = effects * weights[:, :, None]
         gram = effects.transpose(0, 2, 1) @ weighted
-        shares = weighted @ _solved(gram, goals - origin)[:, :, None]
+        goals = np.array([s.goal for s in states])
+        shares = weighted @ _solved(gram, goals - origin[:, 0])[:, :, None]
         steps = (shares.transpose(0, 2, 1) @ apart)[:, 0]
         lengths = np.einsum("bi,bi->b", steps, steps)
-        limits = np.sqrt(np.minimum(reach / np.maximum(lengths, 1e-300), 1.0))
-        point: FloatArray = start + steps * limits[:, None]
+        steps *= np.sqrt(np.minimum(reach / np.maximum(lengths, 1e-300), 1.0))[:, None]
+        # How far outcomes lie apart, over how far policies do: the far ones tell, not the noise.
+        changes = np.einsum("bij,bij->bi", effects, effects)
+        slopes = np.sqrt((changes * known).sum(axis=1) / (squares.sum(axis=1) + 1e-300))
+        point: FloatArray = start[:, 0] + steps
+        for i, (episode, state) in enumerate(zip(episodes, states, strict=True)):
+            point[i] += self._variation(episode, state.costs[state.best], float(slopes[i]))
         return point
+
+    def _variation(self, episode: Episode, cost: float, slope: float) -> FloatArray:
+        """A random offset that should change the outcome by some share of the cost."""
+        least, most = self.variation
+        effect = cost * least * (most / least) ** episode.rng.random()
+        dimension = self.space.dimension
+        offset: FloatArray = episode.rng.standard_normal(dimension)
+        offset *= min(effect / (slope * math.sqrt(dimension) + 1e-300), _WIDEST)
+        return offset
 
     def learn(self, episode: Episode, trial: Trial, competence: float | None) -> None:
         """Add the trial to those near the goal, if it produced the goal's kind."""

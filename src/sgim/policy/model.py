@@ -67,7 +67,7 @@ class NearestModel:
         memory: The memory, which this model fills.
     """
 
-    neighbourhood = 20
+    neighbourhood = 80
 
     def __init__(self, memory: Memory) -> None:
         self.memory = memory
@@ -109,6 +109,20 @@ class NearestModel:
         """Minus the distance to the nearest outcome; −1 when the kind was never produced."""
         distances, _ = self.nearest(goal, context)
         return -min(1.0, float(distances[0])) if len(distances) else -1.0
+
+    def lacks(self, goals: Sequence[Goal], context: Any) -> FloatArray:
+        """The cost of each of some goals, in [0, 1]; 1 where the kind was never produced."""
+        costs = np.ones(len(goals))
+        by_kind: dict[str, list[int]] = {}
+        for i, goal in enumerate(goals):
+            by_kind.setdefault(goal.kind, []).append(i)
+        for kind, members in by_kind.items():
+            if len(self.memory.kinds[kind]):
+                points = [goals[i].point for i in members]
+                keys = self.memory.keys(kind, points, [context] * len(members))
+                distances, _ = self.memory.kinds[kind].nearest_batch(keys, 1)
+                costs[members] = np.minimum(distances[:, 0], 1.0)
+        return costs
 
     def shown_by(self, trial: Trial, goal: Goal, context: Any) -> float:
         """Minus the distance from the trial's outcome to the goal; −1 if it has none."""

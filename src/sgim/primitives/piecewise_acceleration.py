@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from sgim.errors import SpaceError
+from sgim.primitives.recordings import positions_of
 from sgim.primitives.segment_fit import angle_basis, refine, starting_durations
 from sgim.records import Trajectory
 from sgim.spaces import Box, FloatArray
@@ -28,6 +29,8 @@ class PiecewiseAcceleration:
 
     Attributes:
         policy_space: The box of policies.
+        joints: The joint's name.
+        unit: ``rad``.
 
     Raises:
         SpaceError: If a number is not positive.
@@ -48,7 +51,8 @@ class PiecewiseAcceleration:
         self.segments = segments
         self.max_acceleration = max_acceleration
         self.max_duration = max_duration
-        self.joint = joint
+        self.joints: tuple[str, ...] = (joint,)
+        self.unit = "rad"
         self.policy_space = Box(
             [-max_acceleration, 0.0] * segments,
             [max_acceleration, max_duration] * segments,
@@ -77,7 +81,7 @@ class PiecewiseAcceleration:
         # The end decides where a ball flies: it is kept even if it falls between two samples.
         times = np.append(times, end)
         angles = angle_basis(times, durations) @ point[::2]
-        return Trajectory(times, angles[:, None], (self.joint,), "rad")
+        return Trajectory(times, angles[:, None], self.joints, self.unit)
 
     def fit(self, trajectory: Trajectory) -> tuple[FloatArray, float]:
         """The policy that best reproduces a recorded movement, by least squares.
@@ -87,7 +91,7 @@ class PiecewiseAcceleration:
         bounds. The durations add up to the length of the recording.
 
         Args:
-            trajectory: Angles of this primitive's joint, in rad.
+            trajectory: Angles of this primitive's joint, in rad or deg.
 
         Returns:
             The policy, shape ``(2 · segments,)``, and the root-mean-square residual in rad.
@@ -111,11 +115,7 @@ class PiecewiseAcceleration:
         return best, residual
 
     def _check(self, trajectory: Trajectory) -> tuple[FloatArray, FloatArray]:
-        if trajectory.joints != (self.joint,) or trajectory.unit != "rad":
-            raise SpaceError(
-                f"trajectory is of joints {', '.join(trajectory.joints)} in {trajectory.unit}, "
-                f"expected {self.joint} in rad"
-            )
+        angles = positions_of(trajectory, self.joints, self.unit)
         times = trajectory.times - trajectory.times[0]
         longest = self.segments * self.max_duration
         if times[-1] > longest * (1 + 1e-9):
@@ -124,4 +124,4 @@ class PiecewiseAcceleration:
                 f"{self.max_duration:g} s can represent {longest:g} s: shorten it, or use more "
                 "segments"
             )
-        return times, trajectory.positions[:, 0]
+        return times, angles[:, 0]

@@ -11,6 +11,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from sgim.primitives.recordings import with_sum
 from sgim.spaces import FloatArray
 
 _STARTING_BINS = (80, 40, 20)
@@ -108,18 +109,8 @@ def refine(
         xtol=1e-12,
         gtol=1e-15,
     )
-    spans = _with_sum(found.x[segments:], end, max_duration)
+    spans = with_sum(found.x[segments:], end, max_duration)
     return _accelerations(times, angles, spans, max_acceleration), spans
-
-
-def _with_sum(durations: FloatArray, end: float, longest: float) -> FloatArray:
-    """The durations, slightly changed within [0, ``longest``] so that they add up to ``end``."""
-    total = float(durations.sum())
-    if total >= end:
-        return durations * (end / total)
-    room = longest - durations
-    share = (end - total) / max(float(room.sum()), end - total)
-    return np.minimum(durations + share * room, longest)
 
 
 def _accelerations(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 from collections.abc import Mapping, Sequence
 from typing import Any, Literal
 
@@ -45,6 +46,20 @@ class Benchmark:
             kind: self._apart(kind, self.goals[kind], [origin] * len(self.goals[kind]))
             for kind, origin in (origins or {}).items()
         }
+
+    def describe(self) -> dict[str, Any]:
+        """What it measures by, JSON-compatible: equal for benchmarks whose errors compare.
+
+        Returns:
+            ``goals``: kind → how many; ``distance``; ``digest`` of the goals.
+        """
+        spaces, digest = self.environment.task.outcome_spaces, hashlib.blake2b(digest_size=8)
+        for kind, points in self.goals.items():
+            for point in points:
+                packed = spaces[kind].pack(spaces[kind].check(point))
+                digest.update(kind.encode() + b"\0" + packed)
+        counts = {kind: len(points) for kind, points in self.goals.items()}
+        return {"goals": counts, "distance": self.distance, "digest": digest.hexdigest()}
 
     def evaluate(self, learner: Learner, streams: Streams, index: int) -> dict[str, float]:
         """Mean error per goal kind, and ``total``, the mean of the kinds.

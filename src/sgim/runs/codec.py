@@ -76,7 +76,7 @@ class Codec:
             try:
                 event = decode[name](row)
             except (AttributeError, KeyError, TypeError, ValueError) as error:
-                raise _unreadable(row, error) from error
+                raise unreadable(row, error) from error
             last = seq
         if event is not None:
             yield last, event
@@ -86,7 +86,7 @@ class Codec:
             outcome = cast(dict[str, Any], _outcome(event))
             outcome.update(self._decoders.outcome(row[5], row[6]))
         except (AttributeError, KeyError, TypeError, ValueError) as error:
-            raise _unreadable(row, error) from error
+            raise unreadable(row, error) from error
 
 
 def _outcome(event: RecordedEvent) -> Outcome:
@@ -100,7 +100,8 @@ def _outcome(event: RecordedEvent) -> Outcome:
     raise ValueError(f"it follows {type(event).__name__}, which has no outcome")
 
 
-def _unreadable(row: Stored, error: Exception) -> JournalError:
+def unreadable(row: Stored, error: Exception) -> JournalError:
+    """The error for a row that is not one that this version writes."""
     return JournalError(
         f"row {row[0]} of the journal, {row[1]!r}, cannot be read ({type(error).__name__}: "
         f"{error}); it was changed by hand, damaged, or written by another version of sgim"

@@ -56,8 +56,8 @@ class Decoders:
             "suggested": self._suggested,
             "available": self._available,
             "closed": self._closed,
-            "evaluated": self._evaluated,
-            "session": self._session,
+            "evaluated": evaluated,
+            "session": session,
         }
 
     def outcome(self, kind: str | None, point: bytes) -> dict[str, Any]:
@@ -124,15 +124,19 @@ class Decoders:
         goal = self._goal(kind, point)
         return Closed(episode, mode, goal, facts["before"], facts["after"], facts["movements"])
 
-    def _evaluated(self, row: Stored) -> Evaluated:
-        facts = json.loads(row[10])
-        return Evaluated(facts["movements"], facts["errors"])
-
-    def _session(self, row: Stored) -> Session:
-        return Session(json.loads(row[10]))
-
     def _goal(self, kind: str | None, point: bytes) -> Goal | None:
         return None if kind is None else Goal(kind, self._goal_kinds[kind](point))
 
     def _context(self, context: bytes | None) -> Any:
         return None if context is None else self._present_context(context)
+
+
+def evaluated(row: Stored) -> Evaluated:
+    """What an evaluation's row holds; it needs no task."""
+    facts = json.loads(row[10])
+    return Evaluated(facts["movements"], facts["errors"])
+
+
+def session(row: Stored) -> Session:
+    """What a session's row holds; it needs no task."""
+    return Session(json.loads(row[10]))

@@ -171,7 +171,8 @@ class Run:
             Interrupted: If the user stopped it; everything told is in the journal.
             RunError: If world or teachers fail too often in a row; the same holds.
         """
-        self._record(Session(session_facts(target=movements)))
+        measured = {} if self.benchmark is None else {"benchmark": self.benchmark.describe()}
+        self._record(Session(session_facts(target=movements, **measured)))
         if observer is not None:
             observer.started(self, movements)
         begun = time.monotonic()

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -13,8 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sgim.errors import JournalError
-from sgim.events import Evaluated, Session
 from sgim.runs.journal import Journal
+from sgim.runs.measured import MeasuredRun, measures
 from sgim.runs.rows import DECLINED
 from sgim.task import Task
 
@@ -34,6 +33,21 @@ class Openings:
     movements: NDArray[np.int64]
     modes: list[str]
     kinds: list[str | None]
+
+    @classmethod
+    def pooled(cls, several: Iterable[Openings]) -> Openings:
+        """The episodes of several runs together, run by run."""
+        parts = list(several)
+        return cls(
+            np.concatenate([part.movements for part in parts]),
+            [mode for part in parts for mode in part.modes],
+            [kind for part in parts for kind in part.kinds],
+        )
+
+    def of_kind(self, kind: str) -> Openings:
+        """Those whose goal is of one kind."""
+        rows = [i for i, its in enumerate(self.kinds) if its == kind]
+        return Openings(self.movements[rows], [self.modes[i] for i in rows], [kind] * len(rows))
 
     def shares(self, edges: NDArray[np.float64]) -> list[dict[str, dict[str, float]]]:
         """Shares of modes and of goal kinds among the episodes opened in each window.
@@ -63,58 +77,21 @@ def _share(names: list[Any], rows: list[int]) -> dict[str, float]:
 
 
 @dataclass(frozen=True)
-class RecordedRun:
-    """What a journal says of its run.
+class RecordedRun(MeasuredRun):
+    """What a journal says of its run, in full.
 
     Attributes:
-        path: The journal.
-        header: Its header.
         task: The task of the run.
         movements: Movements made so far, told or failed.
-        target: How many movements the run was last asked for; None if it never began.
-        evaluations: Its evaluations, in order.
         openings: Its episodes.
         troubles: How a plan ended without an outcome, such as ``"failed"`` or ``"declined"`` (a
             request without an answer) → how often.
     """
 
-    path: Path
-    header: Mapping[str, Any]
     task: Task
     movements: int
-    target: int | None
-    evaluations: tuple[Evaluated, ...]
     openings: Openings
     troubles: Mapping[str, int]
-
-    @property
-    def experiment(self) -> str | None:
-        """Name of the experiment; None for a run that is not of one."""
-        name: str | None = self.header.get("experiment")
-        return name
-
-    @property
-    def learner(self) -> str | None:
-        """Name of the learner, such as ``mimicry:T1``; None if it has no name."""
-        name: str | None = self.header.get("learner") or self._recipe.get("learner")
-        return name
-
-    @property
-    def configuration(self) -> str | None:
-        """Name of the learner's configuration, if known."""
-        configuration = self._recipe.get("configuration") or {}
-        name: str | None = configuration.get("name")
-        return name
-
-    @property
-    def seed(self) -> int | None:
-        """The seed, if known."""
-        seed: int | None = self._recipe.get("seed")
-        return seed
-
-    @cached_property
-    def _recipe(self) -> dict[str, Any]:
-        return self.header.get("recipe") or {}
 
     @property
     def finished(self) -> bool:
@@ -168,14 +145,7 @@ def read_run(path: str | Path, task: Task | None = None) -> RecordedRun:
         JournalError: If it cannot be read.
     """
     with Journal.open(path, task, append=False) as journal:
-        target = None
-        evaluations = []
-        for event in journal.events(only=("evaluated", "session")):
-            match event:
-                case Evaluated():
-                    evaluations.append(event)
-                case Session(facts):
-                    target = facts.get("target", target)
+        measured = measures(journal.events(only=("evaluated", "session")))
         # Trials are read last: while the run goes on, they are no fewer than what is read first
         # says.
         opened = journal.columns("opened", "seq", "name", "kind")
@@ -187,12 +157,11 @@ def read_run(path: str | Path, task: Task | None = None) -> RecordedRun:
         return RecordedRun(
             Path(path),
             journal.header,
-            journal.task,
-            len(moved),
-            target,
-            tuple(evaluations),
-            openings,
-            _troubles(journal),
+            task=journal.task,
+            movements=len(moved),
+            openings=openings,
+            troubles=_troubles(journal),
+            **measured,
         )
 
 

@@ -2,6 +2,15 @@
 
 from sgim.strategy.modes import Mode
 from sgim.strategy.news import News
+from sgim.strategy.schedules import DemonstrationsFirst, RoundRobin
 from sgim.strategy.strategy import Aimless, JointChoice, Strategy
 
-__all__ = ["Aimless", "JointChoice", "Mode", "News", "Strategy"]
+__all__ = [
+    "Aimless",
+    "DemonstrationsFirst",
+    "JointChoice",
+    "Mode",
+    "News",
+    "RoundRobin",
+    "Strategy",
+]

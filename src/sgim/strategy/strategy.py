@@ -30,9 +30,19 @@ class Strategy(Protocol):
     alone: Mode
 
     def choose(
-        self, rng: np.random.Generator, absent: Collection[str], context: Any
+        self, episode: int, rng: np.random.Generator, absent: Collection[str], context: Any
     ) -> tuple[Mode, Goal | None]:
-        """Choose a mode whose teacher is not ``absent``, and a goal for the present context."""
+        """Choose how an episode learns.
+
+        Args:
+            episode: Its number.
+            rng: Its own generator.
+            absent: Teachers that cannot be asked now.
+            context: The present context.
+
+        Returns:
+            A mode whose teacher is not absent, and a goal for the context, if the mode has one.
+        """
         ...
 
     def update(self, report: EpisodeReport) -> None:
@@ -40,7 +50,8 @@ class Strategy(Protocol):
         ...
 
 
-def _by_name(modes: Sequence[Mode]) -> dict[str, Mode]:
+def by_name(modes: Sequence[Mode]) -> dict[str, Mode]:
+    """Modes by their names, which must differ."""
     named = {mode.name: mode for mode in modes}
     if len(named) < len(modes) or not modes:
         raise ValueError(f"modes need different names, got {[m.name for m in modes]}")
@@ -69,13 +80,13 @@ class JointChoice:
         alone: Mode,
         news: News | None = None,
     ) -> None:
-        self.modes = _by_name(modes)
+        self.modes = by_name(modes)
         self.interest = interest
         self.alone = alone
         self.news = news
 
     def choose(
-        self, rng: np.random.Generator, absent: Collection[str], context: Any
+        self, episode: int, rng: np.random.Generator, absent: Collection[str], context: Any
     ) -> tuple[Mode, Goal | None]:
         """Let the interest map choose among the modes that are possible now."""
         present = [m.name for m in self.modes.values() if m.teacher not in absent]
@@ -104,7 +115,7 @@ class Aimless:
         self.alone = mode
 
     def choose(
-        self, rng: np.random.Generator, absent: Collection[str], context: Any
+        self, episode: int, rng: np.random.Generator, absent: Collection[str], context: Any
     ) -> tuple[Mode, Goal | None]:
         """The mode, and no goal."""
         return self.alone, None

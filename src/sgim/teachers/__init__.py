@@ -1,6 +1,7 @@
 """Teachers: who can be asked to show how a goal is reached."""
 
 from sgim.teachers.base import Teacher, WatchingTeacher, let_observe
+from sgim.teachers.demonstration_files import load_demonstrations, save_demonstrations
 from sgim.teachers.demonstration_set import DemonstrationSet
 from sgim.teachers.least_explored import LeastExplored
 from sgim.teachers.scripted import CorrespondenceError, ScriptedTeacher
@@ -13,4 +14,6 @@ __all__ = [
     "Teacher",
     "WatchingTeacher",
     "let_observe",
+    "load_demonstrations",
+    "save_demonstrations",
 ]

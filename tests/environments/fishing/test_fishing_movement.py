@@ -6,6 +6,7 @@ from sgim.environments.fishing.movement import (
     AMPLITUDES,
     FISHING,
     HOME,
+    PRIMITIVE,
     Encoding,
     via_point_path,
 )
@@ -80,3 +81,11 @@ def test_commands_come_late_from_home() -> None:
     np.testing.assert_allclose(early, -1.0, atol=1e-12)
     late = disturbances(1.0, 50)[:, 4]
     assert np.abs(late).max() < 0.3
+
+
+def test_the_primitive_of_the_task_is_the_same_encoding() -> None:
+    policies = np.random.default_rng(2).random((5, 25))
+    times = np.linspace(0, 4, 50)
+    assert PRIMITIVE.policy_space.describe() == FISHING.policy_space.describe()
+    for policy, angles in zip(policies, PRIMITIVE.positions(policies, times), strict=True):
+        np.testing.assert_allclose(FISHING.path(policy, times), angles, atol=1e-12)

@@ -11,7 +11,10 @@ from typing import TYPE_CHECKING, Annotated, Literal
 from tyro.conf import Positional, arg
 
 from sgim.errors import SgimError
-from sgim.figures import choices, error_curves, explored
+from sgim.figures import choices, choices_by_kind, error_curves, explored
+from sgim.figures.curves import Band
+from sgim.figures.style import NothingToDrawError
+from sgim.runs.costs import Prices
 from sgim.runs.summary import RecordedRun, find_journals, read_run
 
 if TYPE_CHECKING:
@@ -23,11 +26,21 @@ def command(
     out: Annotated[Path, arg(metavar="DIR")] = Path("figures"),
     format: Literal["png", "svg"] = "png",  # noqa: A002 - its name on the command line
     each: bool = False,
+    band: Band = "interval",
+    robot_seconds: Annotated[float, arg(metavar="SECONDS")] = Prices.robot_seconds,
+    person_seconds: Annotated[float, arg(metavar="SECONDS")] = Prices.person_seconds,
 ) -> None:
     """Draw runs: how errors fall, what is chosen over time, and what has been explored.
 
-    Errors are medians over seeds with a band between the quartiles, a line for each learner.
-    What has been explored is drawn for one run of each learner, or for each run with --each.
+    NAME-errors     errors over movements, a line with a band for each learner
+    NAME-costs      the same over the time of robot and persons, if anybody was asked
+    NAME-choices    modes and kinds of goal chosen over time, all seeds together
+    NAME-strategies modes chosen for each kind of goal, by learners that choose both
+    RUN-explored    what has been explored, for one run of each learner, or for --each
+
+    The line is the interquartile mean of the runs and the band its 95 % bootstrap interval at
+    each evaluation; with --band quartiles, the median and the quartiles. sgim compare says
+    whether learners differ.
 
     Examples:
       sgim plot runs/throwing-sgim-acts-0.sgim
@@ -38,7 +51,11 @@ def command(
         out: Directory of the figures; figures of the same name are replaced.
         format: Format of the figures.
         each: Draw what has been explored for each run.
+        band: What lines and bands of errors are.
+        robot_seconds: What a movement costs where the journal does not say.
+        person_seconds: What a request costs, once answered, where the journal does not say.
     """
+    prices = Prices(robot_seconds, person_seconds)
     groups: dict[str, list[RecordedRun]] = {}
     for path in find_journals(paths):
         run = read_run(path)
@@ -49,17 +66,20 @@ def command(
         raise SgimError(f"{out} cannot be made ({error.strerror}); choose another --out") from error
     for name, runs in groups.items():
         stem = runs[0].path.stem if len(runs) == 1 else name
-        journals = [run.path for run in runs]
-        chosen = journals if each else _one_of_each_learner(runs)
+        chosen = [run.path for run in runs] if each else _one_of_each_learner(runs)
         drawings: list[tuple[str, Callable[[], Figure]]] = [
-            (f"{stem}-errors", partial(error_curves, journals)),
-            (f"{stem}-choices", partial(choices, journals)),
+            (f"{stem}-errors", partial(error_curves, runs, band=band)),
+            (f"{stem}-costs", partial(error_curves, runs, band=band, prices=prices)),
+            (f"{stem}-choices", partial(choices, runs)),
+            (f"{stem}-strategies", partial(choices_by_kind, runs)),
             *((f"{path.stem}-explored", partial(explored, path)) for path in chosen),
         ]
         for title, draw in drawings:
             file = out / f"{title}.{format}"
             try:
                 draw().savefig(file)
+            except NothingToDrawError:
+                continue
             except SgimError as error:
                 print(f"no {file}: {error}", file=sys.stderr)
             except OSError as error:

@@ -40,6 +40,7 @@ def command(
 
     Examples:
       sgim sweep throwing --learners sgim-acts,sagg-riac,mimicry:T1 --seeds 0-19 --out runs/throwing
+      sgim compare runs/throwing
       sgim plot runs/throwing --out figures
 
     Args:
@@ -108,5 +109,6 @@ def _report(results: list[SweptRun], out: Path) -> int:
     if failed:
         print("\nMend it, then give the same command again.", file=sys.stderr)
         return 1
+    print(f"compare  {shell('sgim', 'compare', out)}")
     print(f"figures  {shell('sgim', 'plot', out, '--out', 'figures')}")
     return 0

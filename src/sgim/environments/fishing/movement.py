@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from sgim.environments.fishing.model import HOME_DEGREES, JOINTS
+from sgim.primitives import EvenlySpaced, ViaPoints
 from sgim.spaces import Box, FloatArray
 
 HOME: FloatArray = np.radians(HOME_DEGREES)
@@ -75,3 +76,10 @@ class Encoding:
 
 FISHING = Encoding(via_points=4, shortest=0.8, longest=3.0)
 """25 numbers, as chapter 3 has them: four via points a joint, and the duration."""
+
+PRIMITIVE = ViaPoints(
+    Box(HOME - AMPLITUDES, HOME + AMPLITUDES, names=JOINTS, unit="rad"),
+    EvenlySpaced(FISHING.via_points, FISHING.shortest, FISHING.longest),
+    scaled=True,
+)
+"""The same encoding as a task's primitive: it maps recorded movements to policies (eq. 3.7)."""

@@ -9,7 +9,7 @@ import numpy as np
 
 from sgim.environments.base import Environment
 from sgim.environments.fishing.model import FAST, FULL, JOINTS
-from sgim.environments.fishing.movement import FISHING
+from sgim.environments.fishing.movement import FISHING, PRIMITIVE
 from sgim.environments.fishing.noise import Path, commanded
 from sgim.environments.fishing.simulator import Simulator
 from sgim.errors import SpaceError
@@ -64,6 +64,7 @@ class FishingRod(Environment):
         self.task = Task(
             FISHING.policy_space,
             {"float": Box([-widen, -widen], [widen, widen], names=("x", "y"), unit="m")},
+            primitive=PRIMITIVE,
             tolerances={"float": TOLERANCE / (2 * widen)},
         )
 

@@ -1,0 +1,167 @@
+"""A partition of goals, and of the contexts they are aimed at in, into boxes that can be split."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, Protocol, TypeVar
+
+import numpy as np
+
+from sgim.records import Goal
+from sgim.spaces import Box, FloatArray, Space
+from sgim.streams import Streams
+
+
+class Placed(Protocol):
+    """What a region records of an attempt; at least where it was."""
+
+    @property
+    def place(self) -> tuple[float, ...]:
+        """Goal coordinates in the unit box, then context coordinates in theirs."""
+        ...
+
+
+Attempt = TypeVar("Attempt", bound=Placed)
+
+
+class Region:
+    """A box of goals of one kind: a leaf of the tree, or an inner node after it was split.
+
+    Attributes:
+        kind: Goal kind.
+        low: Lower corner in the unit box, goal coordinates first, then context coordinates.
+        high: Upper corner.
+        leaf: Its row in the map's tables, while it is a leaf.
+        records: What was attempted here, as the map that owns the partition keeps it.
+        children: The two halves below and above ``cut`` along ``axis``, once split.
+    """
+
+    __slots__ = ("axis", "children", "cut", "high", "kind", "leaf", "low", "records")
+
+    def __init__(
+        self, kind: str, low: FloatArray, high: FloatArray, leaf: int, records: list[Any]
+    ) -> None:
+        self.kind = kind
+        self.low = low
+        self.high = high
+        self.leaf = leaf
+        self.records = records
+        self.axis = 0
+        self.cut = 0.0
+        self.children: tuple[Region, Region] | None = None
+
+
+class Partition:
+    """Goal spaces, each one region at first, that are split where attempts differ.
+
+    Args:
+        goal_spaces: Kind → goal space; each must be a `Box`.
+        streams: Random streams, for the candidate splits.
+        context_space: The task's context space if there is one; it must be a `Box`.
+        candidates: Random splits to choose among (m of section 4.3.2.4).
+
+    Attributes:
+        spaces: Kind → goal space.
+        leaves: The regions that are not split, each at its row.
+        roots: Kind → the region of everything.
+
+    Raises:
+        TypeError: If a goal or context space is not a `Box`.
+    """
+
+    def __init__(
+        self,
+        goal_spaces: Mapping[str, Space],
+        streams: Streams,
+        *,
+        context_space: Space | None,
+        candidates: int,
+    ) -> None:
+        for what, space in [*goal_spaces.items(), ("context", context_space or Box(0, 1))]:
+            if not isinstance(space, Box):
+                raise TypeError(f"a region tree needs boxes, but {what!r} is {space!r}")
+        self.spaces: dict[str, Box] = {k: s for k, s in goal_spaces.items() if isinstance(s, Box)}
+        self.context_space = context_space
+        self.streams = streams
+        self.candidates = candidates
+        self.contexts = (context_space.dimension or 0) if context_space else 0
+        self.leaves: list[Region] = []
+        self.roots: dict[str, Region] = {}
+
+    def plant(self, kind: str, records: list[Any]) -> Region:
+        """Make the region of everything of a kind."""
+        d = self.spaces[kind].dimension + self.contexts
+        root = Region(kind, np.zeros(d), np.ones(d), len(self.leaves), records)
+        self.leaves.append(root)
+        self.roots[kind] = root
+        return root
+
+    def region_of(self, kind: str, place: Sequence[float] | FloatArray) -> Region:
+        """The leaf that contains a place of the unit box."""
+        region = self.roots[kind]
+        while region.children is not None:
+            region = region.children[bool(place[region.axis] > region.cut)]
+        return region
+
+    def place_of(self, goal: Goal, context: Any) -> tuple[float, ...] | None:
+        """Where a goal in a context lies; None if outside the boxes, or of another kind."""
+        space = self.spaces.get(goal.kind)
+        if space is None:
+            return None
+        place: list[float] = space.encode(goal.point).tolist()
+        if self.context_space is not None:
+            place += self.context_space.encode(context).tolist()
+        return tuple(place) if all(0.0 <= x <= 1.0 for x in place) else None
+
+    def present(self, context: Any) -> Sequence[int]:
+        """Rows of the leaves that contain the context; all of them where there are none."""
+        if self.context_space is None:
+            return range(len(self.leaves))
+        place = np.clip(self.context_space.encode(context), 0.0, 1.0)
+        c = len(place)
+        return [
+            region.leaf
+            for region in self.leaves
+            if (region.low[-c:] <= place).all() and (place <= region.high[-c:]).all()
+        ]
+
+    def best_cut(
+        self,
+        region: Region,
+        records: Sequence[Attempt],
+        interest: Callable[[Sequence[Attempt]], float],
+    ) -> tuple[int, float] | None:
+        """Where n₁ · n₂ · |interest₁ − interest₂| is largest among random candidates.
+
+        Returns:
+            The axis and the cut; None if no candidate parts the records.
+        """
+        rng = self.streams("interest/split", len(self.leaves))
+        best_quality, best = -1.0, None
+        parted: set[tuple[int, int]] = set()
+        axes = rng.integers(len(region.low), size=self.candidates).tolist()
+        for axis, share in zip(axes, rng.random(self.candidates).tolist(), strict=True):
+            cut = region.low[axis] + share * (region.high[axis] - region.low[axis])
+            below = [r for r in records if r.place[axis] <= cut]
+            if 0 < len(below) < len(records) and (axis, len(below)) not in parted:
+                parted.add((axis, len(below)))  # another cut that parts them alike is no better
+                above = [r for r in records if r.place[axis] > cut]
+                gap = abs(interest(below) - interest(above))
+                quality = len(below) * len(above) * gap
+                if quality > best_quality:
+                    best_quality, best = quality, (axis, float(cut))
+        return best
+
+    def divide(self, region: Region, axis: int, cut: float) -> tuple[Region, Region]:
+        """Split a leaf: the lower half keeps its row, the upper half gets the next one.
+
+        Neither half has records yet.
+        """
+        middle_high, middle_low = region.high.copy(), region.low.copy()
+        middle_high[axis] = middle_low[axis] = cut
+        lower = Region(region.kind, region.low, middle_high, region.leaf, [])
+        upper = Region(region.kind, middle_low, region.high, len(self.leaves), [])
+        self.leaves[region.leaf] = lower
+        self.leaves.append(upper)
+        region.axis, region.cut, region.children = axis, cut, (lower, upper)
+        return lower, upper

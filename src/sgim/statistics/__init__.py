@@ -1,0 +1,30 @@
+"""Statistics of runs: pure functions on arrays, which know nothing of journals or learners."""
+
+from __future__ import annotations
+
+from sgim.statistics.bootstrap import Estimate, bootstrap_interval, interquartile_estimate
+from sgim.statistics.effects import probability_lower, rank_biserial
+from sgim.statistics.significance import (
+    equivalence_p,
+    holm,
+    least_pairs,
+    mann_whitney_p,
+    signed_rank_p,
+)
+from sgim.statistics.summaries import area_under_curve, interquartile_mean, performance_profile
+
+__all__ = [
+    "Estimate",
+    "area_under_curve",
+    "bootstrap_interval",
+    "equivalence_p",
+    "holm",
+    "interquartile_estimate",
+    "interquartile_mean",
+    "least_pairs",
+    "mann_whitney_p",
+    "performance_profile",
+    "probability_lower",
+    "rank_biserial",
+    "signed_rank_p",
+]

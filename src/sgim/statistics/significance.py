@@ -1,0 +1,160 @@
+"""Whether a difference, or the lack of one, could be chance.
+
+P-values of ranks are exact, also with ties: with six runs of each, as with twenty, the normal
+approximation claims more than the data say. Only large samples take it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import comb
+from typing import Literal
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from sgim.errors import SgimError
+from sgim.spaces import FloatArray
+from sgim.statistics.effects import signed_ranks
+
+Alternative = Literal["two-sided", "greater"]
+
+_MOST_EXACT = 60
+"""Runs in all up to which the distribution of ranks is computed exactly."""
+
+
+def signed_rank_p(differences: ArrayLike, alternative: Alternative = "two-sided") -> float:
+    """P-value of Wilcoxon's signed-rank test (1945), for runs that are paired.
+
+    Args:
+        differences: Of the pairs, shape ``(n,)``; zeros are left out, as Wilcoxon does.
+        alternative: ``"greater"``: the differences tend to be positive.
+
+    Returns:
+        The p-value; 1 if all differences are 0.
+    """
+    ranks, signs = signed_ranks(differences)
+    if not len(ranks):
+        return 1.0
+    if len(ranks) > _MOST_EXACT:
+        from scipy.stats import wilcoxon
+
+        # SciPy has no exact p-value for so many with ties.
+        return float(wilcoxon(ranks * signs, alternative=alternative, method="approx").pvalue)
+    doubled = np.rint(2 * ranks).astype(int)  # shared ranks are halves
+    chances = np.zeros(doubled.sum() + 1)
+    chances[0] = 1.0
+    for rank in doubled:
+        chances[rank:] = (chances[rank:] + chances[: len(chances) - rank]) / 2
+        chances[:rank] /= 2
+    return _tail(chances, int(doubled[signs > 0].sum()), alternative)
+
+
+def mann_whitney_p(
+    one: ArrayLike, other: ArrayLike, alternative: Alternative = "two-sided"
+) -> float:
+    """P-value of the test of Mann and Whitney (1947), for runs that are not paired.
+
+    Args:
+        one: Shape ``(n,)``, one or more.
+        other: Shape ``(m,)``, one or more.
+        alternative: ``"greater"``: those of ``one`` tend to be greater.
+    """
+    from scipy.stats import mannwhitneyu, rankdata
+
+    first, second = np.asarray(one, dtype=np.float64), np.asarray(other, dtype=np.float64)
+    if not len(first) or not len(second):
+        raise SgimError("the test of Mann and Whitney needs one run or more on each side")
+    n = len(first)
+    if n + len(second) > _MOST_EXACT:
+        # As many ties as there are runs leave SciPy without a spread to divide by.
+        if np.ptp([*first, *second]) == 0:
+            return 1.0
+        found = mannwhitneyu(first, second, alternative=alternative, method="asymptotic")
+        return float(found.pvalue)
+    doubled = np.rint(2 * rankdata([*first, *second])).astype(int)
+    ways = np.zeros((n + 1, doubled.sum() + 1))  # to choose k runs whose ranks have a sum
+    ways[0, 0] = 1.0
+    for rank in doubled:
+        ways[1:, rank:] = ways[1:, rank:] + ways[:-1, : ways.shape[1] - rank]
+    return _tail(ways[n] / comb(len(doubled), n), int(doubled[:n].sum()), alternative)
+
+
+def equivalence_p(
+    one: ArrayLike,
+    other: ArrayLike,
+    margin: float = 0.2,
+    *,
+    paired: bool,
+    relative: bool = True,
+) -> float:
+    """P-value of equivalence: small if the two differ by less than the margin.
+
+    Two one-sided tests (Schuirmann 1987): that one is not lower than the other by the margin, and
+    not higher; the larger of the two p-values. The tests are Wilcoxon's of the pairs, or Mann and
+    Whitney's. To differ by less than a share of the larger of the two is the same as
+    a > (1 − margin) b and b > (1 − margin) a, which is tested as it stands, as for ratios in
+    bioequivalence (Hauschke et al. 1999): no margin is estimated from the data.
+
+    Args:
+        one: Shape ``(n,)``.
+        other: Shape ``(m,)``; with ``m == n`` if paired.
+        margin: As a share of the larger, in (0, 1), or absolute, above 0.
+        paired: Whether they belong together two by two.
+        relative: Whether the margin is a share of the larger. Values must then not be negative.
+
+    Raises:
+        SgimError: If the margin or the values are not of that sort.
+    """
+    first, second = np.asarray(one, dtype=np.float64), np.asarray(other, dtype=np.float64)
+    if not margin > 0 or (relative and margin >= 1):
+        below = ", a share below 1" if relative else ""
+        raise SgimError(f"margin is {margin}, expected more than 0{below}, such as 0.2")
+    if relative and min(first.min(), second.min()) < 0:
+        raise SgimError("a relative margin needs values of 0 or more; pass relative=False")
+
+    def above(a: FloatArray, b: FloatArray) -> float:
+        bound = (1 - margin) * b if relative else b - margin
+        if paired:
+            return signed_rank_p(a - bound, "greater")
+        return mann_whitney_p(a, bound, "greater")
+
+    return max(above(first, second), above(second, first))
+
+
+def holm(p_values: Sequence[float]) -> list[float]:
+    """P-values corrected for their number by Holm's step-down procedure (1979).
+
+    Args:
+        p_values: Of one family of tests, in any order.
+
+    Returns:
+        The corrected ones in the same order: those under a level are rejected by the procedure
+        at that level, which errs in one or more of them with at most that probability.
+    """
+    corrected = [0.0] * len(p_values)
+    largest = 0.0
+    for step, index in enumerate(sorted(range(len(p_values)), key=p_values.__getitem__)):
+        largest = max(largest, min(1.0, (len(p_values) - step) * p_values[index]))
+        corrected[index] = largest
+    return corrected
+
+
+def least_pairs(comparisons: int, level: float = 0.05) -> int:
+    """How many pairs of runs Wilcoxon's two-sided test needs to be able to reject at all.
+
+    Its smallest p-value with n pairs is 2 / 2ⁿ; Holm multiplies it by the number of comparisons.
+    """
+    pairs = 1
+    while comparisons * 2.0 ** (1 - pairs) > level:
+        pairs += 1
+    return pairs
+
+
+def _tail(chances: FloatArray, found: int, alternative: Alternative) -> float:
+    """The p-value of a sum whose null distribution is given; two-sided by doubling."""
+    greater = float(chances[found:].sum())
+    if alternative == "greater":
+        return min(1.0, greater)
+    lower = float(chances[: found + 1].sum())
+    return min(1.0, 2 * min(greater, lower))

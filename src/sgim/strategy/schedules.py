@@ -1,0 +1,86 @@
+"""Fixed schedules of modes: the controls that choosing must beat."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+from typing import Any
+
+import numpy as np
+
+from sgim.outcome.interest import EpisodeReport, InterestMap
+from sgim.records import Goal
+from sgim.strategy.modes import Mode
+from sgim.strategy.strategy import by_name
+
+
+class RoundRobin:
+    """Every mode in turn; only the goal is chosen by interest.
+
+    Args:
+        modes: The modes, in their order.
+        interest: The map that learns which goals bring progress.
+        alone: What is done instead of a mode whose teacher is absent.
+    """
+
+    def __init__(self, modes: Sequence[Mode], interest: InterestMap, alone: Mode) -> None:
+        self.modes = by_name(modes)
+        self.interest = interest
+        self.alone = alone
+        self._order = tuple(modes)
+
+    def choose(
+        self, episode: int, rng: np.random.Generator, absent: Collection[str], context: Any
+    ) -> tuple[Mode, Goal | None]:
+        """The next mode, and a goal that is interesting to pursue by it."""
+        mode = self._order[episode % len(self._order)]
+        goal, _ = self.interest.choose(rng, [mode.name], context)
+        return self.alone if mode.teacher in absent else mode, goal
+
+    def update(self, report: EpisodeReport) -> None:
+        """Pass the report to the interest map."""
+        self.interest.update(report)
+
+
+class DemonstrationsFirst:
+    """All demonstrations at the start, then autonomous exploration only.
+
+    Every teacher is asked in turn, for goals drawn uniformly.
+
+    Args:
+        asking: The modes that ask, one after the other.
+        requests: How many requests there are in all, one an episode.
+        first: Draws the goals of the requests.
+        alone: What follows.
+        interest: The map that chooses the goals of what follows, and learns from it alone.
+    """
+
+    def __init__(
+        self,
+        asking: Sequence[Mode],
+        requests: int,
+        first: InterestMap,
+        alone: Mode,
+        interest: InterestMap,
+    ) -> None:
+        self.modes = by_name([*asking, alone])
+        self.alone = alone
+        self.requests = requests
+        self.first = first
+        self.interest = interest
+        self._asking = tuple(asking)
+
+    def choose(
+        self, episode: int, rng: np.random.Generator, absent: Collection[str], context: Any
+    ) -> tuple[Mode, Goal | None]:
+        """Ask the next teacher, or explore alone when all demonstrations have been given."""
+        if episode < self.requests:
+            mode = self._asking[episode % len(self._asking)]
+            goal, _ = self.first.choose(rng, [mode.name], context)
+            return self.alone if mode.teacher in absent else mode, goal
+        goal, _ = self.interest.choose(rng, [self.alone.name], context)
+        return self.alone, goal
+
+    def update(self, report: EpisodeReport) -> None:
+        """Pass what was explored alone to the interest map."""
+        if report.mode == self.alone.name:
+            self.interest.update(report)

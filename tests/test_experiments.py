@@ -1,0 +1,41 @@
+"""The experiments that come with the library run by their names, evaluated and resumed."""
+
+from pathlib import Path
+
+import pytest
+
+from sgim.experiments import experiment
+from sgim.runs.summary import read_run
+
+
+@pytest.mark.parametrize("learner", ["random", "sagg-riac", "mimicry:expert", "sgim-acts"])
+def test_hockey_is_run_evaluated_and_resumed_with_every_kind_of_learner(
+    learner: str, tmp_path: Path
+) -> None:
+    hockey = experiment("hockey")
+    path = hockey.journal_path(learner, folder=tmp_path)
+    for movements in (60, 120):
+        with hockey.start(learner, path, evaluate_every=60) as run:
+            run.go(movements)
+    recorded = read_run(path)
+    assert recorded.movements == 120
+    assert [evaluation.movements for evaluation in recorded.evaluations] == [0, 60, 120]
+    assert recorded.evaluations[0].errors["hit"] == 1.0
+    assert all(0 <= e.errors["hit"] <= 1 for e in recorded.evaluations)
+
+
+def test_hockey_is_as_long_as_in_the_thesis_and_measured_on_41_goals() -> None:
+    hockey = experiment("hockey")
+    assert hockey.movements == 8000
+    assert hockey.default_learner == "sgim-acts"
+    benchmark = hockey.benchmark(hockey.environment())
+    assert {kind: len(points) for kind, points in benchmark.goals.items()} == {"hit": 41}
+    assert benchmark.distance == "scaled"
+
+
+def test_the_hockey_teacher_helps_where_it_teaches() -> None:
+    hockey = experiment("hockey")
+    learner = hockey.learner("mimicry:expert", seed=1000)
+    hockey.run(learner).go(200)
+    known = [-learner.competence("hit", [goal]) for goal in (0.55, 0.7, 0.85, 0.95)]
+    assert max(known) < 0.05
