@@ -7,7 +7,7 @@ from sgim.environments import FishingRod, fishing_demonstrations, fishing_teache
 from sgim.environments.fishing import demonstrators
 from sgim.environments.fishing.demonstrators import DEMONSTRATORS, write_policies, write_recordings
 from sgim.environments.fishing.model import JOINTS
-from sgim.environments.fishing.movement import AMPLITUDES, HOME
+from sgim.environments.fishing.movement import AMPLITUDES, HOME, PRIMITIVE
 from sgim.environments.fishing.reaching import reaching
 from sgim.errors import SgimError, UnknownNameError
 from sgim.records import Demonstration, Outcome, Trajectory
@@ -65,6 +65,16 @@ def test_a_kinaesthetic_demonstration_led_again_lands_where_it_did() -> None:
         assert shown.trajectory is not None
         again = STILL.follow(shown.trajectory)["float"]
         np.testing.assert_allclose(again, shown.outcome["float"], atol=1e-3)
+
+
+def test_recorded_movements_are_fitted_within_a_degree_and_land_near() -> None:
+    misses = []
+    for shown in fishing_demonstrations(3)[::8]:
+        policy, residual = PRIMITIVE.fit(shown.trajectory)  # type: ignore[arg-type]
+        assert np.degrees(residual) < 1
+        landing = STILL.execute(policy).get("float", np.full(2, np.inf))
+        misses.append(np.linalg.norm(landing - shown.outcome["float"]))
+    assert np.median(misses) < 0.12
 
 
 def repeated(demonstrator: int) -> float:
