@@ -116,6 +116,11 @@ class KindMemory:
         self._index_new()
         return self._index.query_batch(keys, k)
 
+    def gaps(self, keys: FloatArray) -> FloatArray:
+        """How far each of some keys, shape ``(m, d)``, is from the nearest row's; else infinite."""
+        self._index_new()
+        return self._index.gaps(keys)
+
     def nearest_policies(self, policy: FloatArray, k: int) -> tuple[FloatArray, IntArray]:
         """The k rows whose policies, scaled to the unit box, are nearest to ``policy``."""
         index = self._policy_index

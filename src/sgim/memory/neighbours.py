@@ -40,10 +40,12 @@ def _at_least_one(name: str, value: int) -> int:
 def _squared_distances(columns: FloatArray, point: FloatArray) -> FloatArray:
     """Squared distances to ``point`` of the points in ``columns``, shape (d, n).
 
+    ``point`` may also have a column for each of them.
+
     The sum adds one coordinate at a time, in order, whatever n is: a point's distance is the
     same to the last bit wherever the point is stored.
     """
-    differences = columns - point[:, None]
+    differences = columns - (point[:, None] if point.ndim == 1 else point)
     differences *= differences
     total: FloatArray = differences[0]
     for squares in differences[1:]:
@@ -236,6 +238,24 @@ class NearestNeighbours:
         reach = distances[:, 0] * _SLACK + _TINY
         doubtful = np.any([horizon <= reach for _, horizon in answers], axis=0)
         return [int(i) for i in np.flatnonzero(doubtful)]
+
+    def gaps(self, points: ArrayLike) -> FloatArray:
+        """How far each of m points, shape (m, d), is from the nearest: shape (m,).
+
+        Faster than to find which one that is; infinite while there is none.
+        """
+        checked = self._check(points, 2)
+        newest = self._buffer[:, : self._count - self._in_trees]
+        squares = np.full(len(checked), math.inf)
+        if newest.shape[1]:
+            squares[:] = [_squared_distances(newest, point).min() for point in checked]
+        for tree in self._trees:
+            rows, _ = tree.nearest(checked, 1)  # the two nearest: trees round in their own way
+            for candidates in tree.firsts(rows).T:
+                apart = _squared_distances(self._storage.take(candidates, axis=0).T, checked.T)
+                np.minimum(squares, apart, out=squares)
+        gaps: FloatArray = np.sqrt(squares)
+        return gaps
 
     def within(self, point: ArrayLike, radius: float) -> Neighbours:
         """Find all at most ``radius`` from a point, shape (d,): distances and indices, sorted."""

@@ -109,18 +109,18 @@ class NearestModel:
         distances, _ = self.nearest(goal, context)
         return -min(1.0, float(distances[0])) if len(distances) else -1.0
 
-    def lacks(self, goals: Sequence[Goal], context: Any) -> FloatArray:
-        """The cost of each of some goals, in [0, 1]; 1 where the kind was never produced."""
-        costs = np.ones(len(goals))
-        by_kind: dict[str, list[int]] = {}
-        for i, goal in enumerate(goals):
-            by_kind.setdefault(goal.kind, []).append(i)
-        for kind, members in by_kind.items():
-            if len(self.memory.kinds[kind]):
-                points = [goals[i].point for i in members]
-                keys = self.memory.keys(kind, points, [context] * len(members))
-                distances, _ = self.memory.kinds[kind].nearest_batch(keys, 1)
-                costs[members] = np.minimum(distances[:, 0], 1.0)
+    def lacks(self, kind: str, places: FloatArray, context: Any) -> FloatArray:
+        """The cost of goals of a kind, in [0, 1]; 1 where it was never produced.
+
+        Args:
+            kind: The kind.
+            places: The goals, scaled to the unit box, shape ``(m, d)``.
+            context: The context of all of them.
+        """
+        if self.memory.task.context_space is not None:
+            here = self.memory.task.context_space.encode(context)
+            places = np.column_stack((places, np.tile(here, (len(places), 1))))
+        costs: FloatArray = np.minimum(self.memory.kinds[kind].gaps(places), 1.0)
         return costs
 
     def shown_by(self, trial: Trial, goal: Goal, context: Any) -> float:
