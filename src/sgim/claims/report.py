@@ -83,7 +83,10 @@ def report(
     for chapter in chapters:
         worlds = worlds_of([run for run in kept if _main(run) == chapter.experiment], at)
         tables += [decide(chapter, world, seed) for world in worlds]
-    notes = [f"no claims are about {name}: left out {others[name]} runs" for name in sorted(others)]
+    notes = [
+        f"no claims are about {name}: left out {count} run{'s' * (count > 1)}"
+        for name, count in sorted(others.items())
+    ]
     return Report(tuple(tables), tuple(count_worlds(tables)), seed, tuple(notes))
 
 

@@ -105,8 +105,8 @@ def _print_components(findings: Sequence[Finding], stream: TextIO) -> None:
 
 
 def _print_plausible(plausible: Plausible, stream: TextIO) -> None:
-    count = len(plausible.worlds)
-    title = f"{plausible.chapter.name}, {plausible.configuration}, in {count} plausible worlds: "
+    several = f"in {len(plausible.worlds)} plausible worlds"
+    title = f"{plausible.chapter.name}, {plausible.configuration}, {several}: "
     title += ", ".join(plausible.worlds)
     print("\n" + textwrap.fill(title, _WIDTH, subsequent_indent="  ") + "\n", file=stream)
     rows = [["claim", "holds in", "elsewhere"]]

@@ -16,8 +16,8 @@ from sgim.runs.summary import find_journals
 
 def command(
     chapters: Annotated[
-        Positional[list[str]], arg(metavar="CHAPTER…", help_behavior_hint="(default: all)")
-    ] = [],  # noqa: B006
+        Positional[tuple[str, ...]], arg(metavar="CHAPTER…", help_behavior_hint="(default: all)")
+    ] = (),
     runs: Annotated[
         Path | None, arg(metavar="DIR", help_behavior_hint="(default: only list the claims)")
     ] = None,
