@@ -32,7 +32,7 @@ def test_each_experiment_and_configuration_is_a_world_the_base_first() -> None:
 
 
 def test_runs_that_do_not_compare_are_refused() -> None:
-    with pytest.raises(SgimError, match="are both .* with seed 0"):
+    with pytest.raises(SgimError, match=r"are both .* with seed 0"):
         worlds_of([*HOLDS.runs(), *HOLDS.runs()])
 
 
