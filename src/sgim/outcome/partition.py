@@ -135,7 +135,6 @@ class Partition:
 
         Candidates are random, as in section 3.1.4.
 
-
         Returns:
             The axis and the cut; None if no candidate parts the records.
         """
