@@ -15,7 +15,7 @@ TASK = ThrowingArm().task
 @pytest.mark.parametrize("name", algorithms.ALGORITHMS)
 @pytest.mark.parametrize("configuration", ["modern", "thesis"])
 def test_a_recipe_makes_the_same_learner_again(name: str, configuration: str) -> None:
-    teachers = ["T1"] if name in ("mimicry", "emulation", "sgim-acts") else []
+    teachers = ["T1"]
     made = algorithms.make(name, TASK, teachers, configuration=configuration, seed=5)
     again = algorithms.from_recipe(TASK, made.recipe or {})
     assert again.recipe == made.recipe

@@ -33,6 +33,7 @@ from sgim.policy.model import CompetenceModel
 from sgim.records import Demonstration, Goal, Plan, Report, Trial
 from sgim.spaces import Box
 from sgim.strategy.modes import Mode
+from sgim.strategy.situation import Situation
 from sgim.strategy.strategy import Strategy
 from sgim.streams import Streams
 from sgim.task import Task
@@ -76,7 +77,8 @@ class Transitions:
         """Decide the next episode's mode and goal, without opening it."""
         number = self.ledger.next_episode
         self._rng = number, self.streams("learner", number)
-        mode, chosen = self.strategy.choose(number, self._rng[1], self._absent, context)
+        now = Situation(number, self._absent, context, self.ledger.running.values())
+        mode, chosen, budget = self.strategy.choose(now, self._rng[1])
         if chosen is not None:
             chosen = self.task.check_goal(chosen.kind, chosen.point)
         if self._given:
@@ -85,14 +87,14 @@ class Transitions:
             return Opened(number, mode.name, shown or chosen, context, "demonstration")
         if self._suggestions:
             mode = self.strategy.alone if mode.pursues == "nothing" else mode
-            return Opened(number, mode.name, self._suggestions[0], context, "suggestion")
-        return Opened(number, mode.name, chosen, context, "strategy")
+            return Opened(number, mode.name, self._suggestions[0], context, "suggestion", budget)
+        return Opened(number, mode.name, chosen, context, "strategy", budget)
 
     def _mode_for(self, demonstration: Demonstration) -> Mode:
         """How to learn from an unasked demonstration: as from its teacher, mimicry first."""
         modes = [m for m in self.strategy.modes.values() if m.teacher == demonstration.teacher]
-        usable = [m for m in modes if m.pursues == "chosen" and demonstration.policy is not None]
-        usable += [m for m in modes if m.pursues == "demonstrated"]
+        usable = [m for m in modes if m.needs_policy and demonstration.policy is not None]
+        usable += [m for m in modes if not m.needs_policy]
         return usable[0] if usable else self.strategy.alone
 
     def mode(self, name: str) -> Mode:
@@ -113,7 +115,8 @@ class Transitions:
         if decided != number:
             rng = self.streams("learner", number)
         episode = Episode(number, event.goal, event.context, rng)
-        running = Running(self.mode(event.mode), event.goal, event.context, episode, live)
+        mode = self.mode(event.mode)
+        running = Running(mode, event.goal, event.context, episode, live, event.budget)
         self.ledger.running[number] = running
         if event.cause == "suggestion":
             self._suggestions.popleft()
@@ -143,11 +146,22 @@ class Transitions:
             episode.goal = None
         elif mode.pursues == "demonstrated" and episode.demonstration is not None:
             episode.goal = self._shown(episode.demonstration, running.chosen) or episode.goal
+        if episode.demonstration is not None and running.watched is not None:
+            shown_in = episode.demonstration.context
+            episode.context = episode.context if shown_in is None else shown_in
         if running.live:
+            if episode.goal is None and mode.pursues != "nothing":
+                running.chosen = episode.goal = self._goal_alone(running)
             if episode.goal is not None:
                 competence = float(self.model.competence(episode.goal, episode.context))
                 episode.before = episode.best = competence
             mode.explorer.begin(episode)
+
+    def _goal_alone(self, running: Running) -> Goal | None:
+        """A goal for an episode that was to get it from a teacher, and did not."""
+        teachers = {mode.teacher for mode in self.strategy.modes.values() if mode.teacher}
+        now = Situation(running.episode.id, teachers, running.episode.context)
+        return self.strategy.choose(now, running.episode.rng).goal
 
     def _shown(self, demonstration: Demonstration, chosen: Goal | None) -> Goal | None:
         """The demonstrated outcome as a goal, of the kind chosen if it has that; else None."""
@@ -264,7 +278,7 @@ class Transitions:
         if not running.live:
             ended = not self.folding
         else:
-            ended = episode.attempts >= running.mode.budget or (
+            ended = episode.attempts >= running.budget or (
                 episode.movements > 0 and running.mode.explorer.finished(episode)
             )
         if ended:
