@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 
+from sgim.algorithms import completed
 from sgim.errors import JournalError, SgimError
 from sgim.events import Session
 from sgim.learner import Learner
@@ -123,7 +124,8 @@ def session_facts(**more: Any) -> dict[str, Any]:
 def _check(path: str | Path, recorded: Mapping[str, Any], mine: Mapping[str, Any]) -> None:
     given = json.loads(to_json(dict(mine)))
     for key, value in given.items():
-        if difference := first_difference(recorded.get(key), value, key):
+        there = completed(recorded.get(key)) if key == "recipe" else recorded.get(key)
+        if difference := first_difference(there, value, key):
             raise JournalError(
                 f"{path} is of another run: {difference}; resume it as it was begun, or choose "
                 "another path"
