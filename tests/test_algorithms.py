@@ -15,7 +15,7 @@ TASK = ThrowingArm().task
 @pytest.mark.parametrize("name", algorithms.ALGORITHMS)
 @pytest.mark.parametrize("configuration", ["modern", "thesis"])
 def test_a_recipe_makes_the_same_learner_again(name: str, configuration: str) -> None:
-    teachers = ["T1"]
+    teachers = [] if name in ("random", "random-goal-babbling", "sagg-riac") else ["T1"]
     made = algorithms.make(name, TASK, teachers, configuration=configuration, seed=5)
     again = algorithms.from_recipe(TASK, made.recipe or {})
     assert again.recipe == made.recipe
@@ -39,6 +39,25 @@ def test_learners_of_one_teacher_refuse_none_and_several() -> None:
         algorithms.emulation(TASK, [])
     with pytest.raises(SgimError, match="use sagg-riac"):
         algorithms.sgim_acts(TASK, [])
+
+
+@pytest.mark.parametrize("name", ["uniform-choice", "round-robin", "demonstrations-first"])
+def test_controls_need_teachers(name: str) -> None:
+    with pytest.raises(SgimError, match="name one or more"):
+        algorithms.make(name, TASK)
+
+
+def test_demonstrations_come_first_as_often_as_the_configuration_says() -> None:
+    learner = algorithms.make(
+        "demonstrations-first", TASK, ["T1", "T2"], configuration="modern,first_demonstrations=5"
+    )
+    modes = []
+    for _ in range(40):
+        plan = learner.ask()
+        modes.append(plan.mode)
+        learner.expire(plan)
+    expected = ["mimic T1", "mimic T2", "mimic T1", "mimic T2", "mimic T1"]
+    assert [m for m in modes if m != "autonomous"] == expected
 
 
 def test_unknown_names_are_answered_with_the_nearest() -> None:

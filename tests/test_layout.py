@@ -12,7 +12,7 @@ import pytest
 ROOT = Path(__file__).parent.parent
 PACKAGE = ROOT / "src" / "sgim"
 
-WORDS = {"errors", "spaces", "records", "streams", "task"}
+WORDS = {"errors", "frozen", "spaces", "records", "streams", "task"}
 """The words of the domain, and what everything may use."""
 
 SPINE = (
@@ -40,13 +40,13 @@ DRIVERS = ("runs", "experiments", "figures")
 
 LEARNER_CODE = ("memory", "policy", "outcome", "strategy", "learner.py", "configurations.py")
 
-WORLD_NAMES = {"throw", "throwing", "arm", "place", "hockey", "puck", "mallet"}
+WORLD_NAMES = {"throw", "throwing", "arm", "place", "fishing", "rod", "hockey", "puck", "mallet"}
 
 ORDINARY_WORDS = {("outcome", "place")}
 """Identifiers that are the English word: a region tree's records have a place in the unit box."""
 
 LONGEST_FILE = 350
-HEAVY = ("scipy", "matplotlib", "tyro", "rich", "joblib")
+HEAVY = ("scipy", "matplotlib", "tyro", "rich", "joblib", "mujoco")
 
 
 def allowed(part: str) -> set[str] | None:

@@ -87,6 +87,33 @@ def test_check_makes_a_vector_of_its_own() -> None:
     assert box.check((1, 2)).dtype == np.float64
 
 
+def test_several_are_checked_as_each_is_alone() -> None:
+    box, given_points = Box(0, 1, names="ab"), np.array([[0.25, 0.5], [7.0, -1.0]])
+    checked = box.check_all(given_points)
+    given_points[:] = 9.0
+    assert [point.tolist() for point in checked] == [[0.25, 0.5], [7.0, -1.0]]
+    assert [p.tolist() for p in Box(0, 1).check_all([0.5, [1], (2,)])] == [[0.5], [1.0], [2.0]]
+    assert box.check_all([]) == []
+
+
+@pytest.mark.parametrize("bad", [[0.0], [0.0, np.nan], [0.0, -1e200], "ab", None, [[0.0, 1.0]]])
+def test_one_that_is_malformed_among_several_is_refused_as_alone(bad: object) -> None:
+    box = Box(0, 1, names="ab")
+    with pytest.raises(SpaceError) as alone:
+        box.check(bad, "goal")
+    with pytest.raises(SpaceError) as among:
+        box.check_all([[0.5, 0.5], bad], "goal")
+    assert str(among.value) == str(alone.value)
+
+
+@given(arrays(np.float64, (2, 3), elements=st.floats(-0.5, 1.5) | st.just(np.nan)))
+def test_rows_are_contained_where_each_point_is(points: np.ndarray) -> None:
+    box = Box(0, 1, names="abc")
+    within = [bool(((point >= 0) & (point <= 1)).all()) for point in points]
+    assert [box.contains(point) for point in points] == within
+    assert box.contains(points) == all(within)
+
+
 def test_check_lets_bounds_be_passed_and_contains_tells() -> None:
     box = Box(0, 1)
     assert box.check([7.0]).tolist() == [7.0]

@@ -289,14 +289,6 @@ def make(
     return ALGORITHMS[name](task, teachers, configuration=configuration, seed=seed)
 
 
-def completed(recipe: Any) -> Any:
-    """A recorded recipe as this version writes it: constants added since have their defaults."""
-    try:
-        return {**recipe, "configuration": configuration_of(recipe["configuration"]).describe()}
-    except (KeyError, TypeError, SgimError):  # not the library's own
-        return recipe
-
-
 def from_recipe(task: Task, recipe: Mapping[str, Any]) -> Learner:
     """Make a learner again from its ``recipe``.
 

@@ -36,9 +36,12 @@ class Answers:
         self, kind: str, points: Sequence[Any], contexts: Sequence[Any] | None = None
     ) -> list[Any]:
         """As `best_policy` for many goals of a kind at once; None where nothing is known."""
-        goals = [self.task.check_goal(kind, p) for p in points]
-        given = [None] * len(goals) if contexts is None else contexts
-        return self._inverse.best_policies(goals, [self.task.check_context(c) for c in given])
+        goals = self.task.check_goals(kind, points)
+        checked: list[Any] = [None] * len(goals)
+        if contexts is not None or self.task.context_space is not None:
+            given = checked if contexts is None else contexts
+            checked = [self.task.check_context(context) for context in given]
+        return self._inverse.best_policies(goals, checked)
 
     def solve(self, kind: str, point: Any, context: Any = None) -> Solution:
         """The policy for a goal, what it should produce, and how sure that is."""

@@ -108,6 +108,7 @@ MODERN = Configuration(
     split_candidates=10,
     goal_rules=(0.1, 0.9, 0.0),
     prior=0.5,
+    first_demonstrations=200,
     news=True,
 )
 CONFIGURATIONS = {c.name: c for c in (THESIS, MODERN)}

@@ -7,16 +7,16 @@ A learner's state is a fold over these; the journal stores them in order. `Opene
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import Any, Literal
 
+from sgim.frozen import frozen
 from sgim.records import Demonstration, Goal, Outcome, Plan, Trial
 
 Cause = Literal["strategy", "suggestion", "demonstration"]
 Ending = Literal["failed", "refused", "expired", "lost"]
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@frozen
 class Opened:
     """An episode was opened: what to aim at and how to learn it have been decided.
 
@@ -37,14 +37,14 @@ class Opened:
     budget: int | None = None
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@frozen
 class Planned:
     """A plan was made (a policy to try, or a request)."""
 
     plan: Plan
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@frozen
 class Answered:
     """A request was answered; a demonstration of None is a refusal.
 
@@ -59,7 +59,7 @@ class Answered:
     seconds: float | None = None
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@frozen
 class Told:
     """A plan was executed.
 
@@ -74,7 +74,7 @@ class Told:
     seconds: float | None = None
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@frozen
 class Ended:
     """A plan ended without an outcome.
 
@@ -93,28 +93,28 @@ class Ended:
     seconds: float | None = None
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@frozen
 class Observed:
     """A trial from elsewhere was added to the memory."""
 
     trial: Trial
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@frozen
 class Demonstrated:
     """A teacher showed something unasked."""
 
     demonstration: Demonstration
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@frozen
 class Suggested:
     """A person suggested a goal."""
 
     goal: Goal
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@frozen
 class Available:
     """A teacher came or went."""
 
@@ -122,7 +122,7 @@ class Available:
     yes: bool
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@frozen
 class Closed:
     """An episode ended. It follows from the events before it, and is kept for readers.
 
@@ -144,7 +144,7 @@ class Closed:
     movements: int
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@frozen
 class Evaluated:
     """The repertoire was measured against a benchmark, outside of learning.
 
@@ -157,7 +157,7 @@ class Evaluated:
     errors: Mapping[str, float]
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@frozen
 class Session:
     """A process began to write: when, with which versions, and why.
 

@@ -105,8 +105,8 @@ class Learner(Transitions, Answers):
             A plan with a policy to try, or with a request to a teacher.
         """
         context = self.task.check_context(context)
-        if self.ledger.has_idle:
-            running = self.ledger.oldest_idle()
+        running = self.ledger.oldest_idle()
+        if running is not None:
             try:
                 policy = self.proposed(self.resumed(running, context))
             except BaseException:
@@ -145,14 +145,15 @@ class Learner(Transitions, Answers):
         chosen: list[tuple[Running, Opened | None]] = []
         try:
             for context in checked:
-                if self.ledger.has_idle:
-                    chosen.append((self.ledger.oldest_idle(), None))
-                    self.resumed(chosen[-1][0], context)
+                running = self.ledger.oldest_idle()
+                if running is not None:
+                    chosen.append((running, None))
+                    self.resumed(running, context)
                 else:
                     event = self.decide_opening(context)
                     chosen.append((self.open(event), event))
             asking = [running for running, _ in chosen if not running.must_ask]
-            policies = self.sealed(_propose(asking)) if asking else []
+            policies = self.all_sealed(_propose(asking)) if asking else []
         except BaseException:
             for running, opening in reversed(chosen):
                 if opening is None:

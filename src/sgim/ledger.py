@@ -82,14 +82,9 @@ class Ledger:
         self._idle: list[int] = []
         self._status = bytearray()
 
-    @property
-    def has_idle(self) -> bool:
-        """Whether an open episode waits for nothing."""
-        return bool(self._idle)
-
-    def oldest_idle(self) -> Running:
-        """Take the oldest open episode that waits for nothing."""
-        return self.running[heapq.heappop(self._idle)]
+    def oldest_idle(self) -> Running | None:
+        """Take the oldest open episode that waits for nothing; None if there is none."""
+        return self.running[heapq.heappop(self._idle)] if self._idle else None
 
     def waits(self, running: Running) -> bool:
         """Whether the episode is neither idle nor has a plan out, so that a plan is due."""

@@ -3,19 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import Any
 
 import numpy as np
 
 from sgim.errors import SpaceError
+from sgim.frozen import frozen
 from sgim.spaces import FloatArray
 
 Outcome = Mapping[str, Any]
 """What a trial produced: kind → point; a kind is absent when it was not produced."""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@frozen
 class Goal:
     """Something to aim at.
 
@@ -28,7 +29,7 @@ class Goal:
     point: Any
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@frozen
 class Request:
     """A question to a teacher: show me how to reach this goal.
 
@@ -43,7 +44,7 @@ class Request:
     index: int
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@frozen
 class Plan:
     """What the learner wants done next: try a policy, or ask a teacher. Exactly one is set.
 
@@ -70,7 +71,7 @@ class Plan:
     watched: Outcome | None = None
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@frozen
 class Trial:
     """One movement and what it produced.
 
@@ -85,7 +86,7 @@ class Trial:
     context: Any = None
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@frozen
 class Report:
     """What the learner says of a trial it was told.
 
@@ -104,7 +105,7 @@ class Report:
     progress: float | None
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@frozen
 class Solution:
     """An answer for a goal.
 
@@ -165,7 +166,7 @@ class Trajectory:
             )
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@frozen
 class Demonstration:
     """A movement a teacher showed, and what it produced.
 

@@ -20,6 +20,7 @@ from sgim.errors import SpaceError, unknown
 
 FloatArray = NDArray[np.float64]
 
+_LITTLE_ENDIAN = np.dtype("<f8")
 _LARGEST = 1e100  # Of a coordinate's magnitude: squares of scaled differences must not overflow.
 
 
@@ -148,6 +149,16 @@ class Box:
                 )
         return point
 
+    def check_all(self, values: Sequence[Any], what: str = "value") -> list[FloatArray]:
+        """As `check` for each of several values, all at once."""
+        try:
+            points = np.array(values, dtype=np.float64)
+        except (TypeError, ValueError):  # what is malformed is named one by one, below
+            points = np.empty(0)
+        if points.shape[1:] == self._shape and _all(np.abs(points) <= _LARGEST):
+            return list(points)
+        return [self.check(value, what) for value in values]
+
     def _expected(self) -> str:
         parts = [
             n if u is None else f"{n} {u}" for n, u in zip(self.names, self.units, strict=True)
@@ -156,8 +167,11 @@ class Box:
         return f"{self._shape}: ({', '.join(shown)})"
 
     def contains(self, point: FloatArray) -> bool:
-        """Whether the point lies within the bounds, borders included."""
-        return bool((point >= self.low).all() and (point <= self.high).all())
+        """Whether the point lies within the bounds, borders included.
+
+        Of an array of points, shape ``(..., d)``, whether all do.
+        """
+        return _all(point >= self.low) and _all(point <= self.high)
 
     def clip(self, point: FloatArray) -> FloatArray:
         """The nearest point within the bounds."""
@@ -182,11 +196,11 @@ class Box:
 
     def pack(self, point: FloatArray) -> bytes:
         """Little-endian float64 bytes."""
-        return point.astype("<f8", copy=False).tobytes()
+        return point.astype(_LITTLE_ENDIAN, copy=False).tobytes()
 
     def unpack(self, data: bytes) -> FloatArray:
         """The vector that was packed."""
-        return np.frombuffer(data, dtype="<f8").astype(np.float64)
+        return np.frombuffer(data, _LITTLE_ENDIAN).astype(np.float64)
 
     def describe(self) -> dict[str, Any]:
         """Bounds, names and units."""
@@ -200,6 +214,11 @@ class Box:
 
     def __repr__(self) -> str:
         return f"Box({self.low.tolist()}, {self.high.tolist()}, names={list(self.names)})"
+
+
+def _all(truths: NDArray[np.bool_]) -> bool:
+    """Whether all are true; ``truths.all()`` takes three times as long for a few."""
+    return bool(truths.item(truths.argmin()))
 
 
 class Choices:

@@ -14,6 +14,8 @@ from typing import Any, cast
 import numpy as np
 from numpy.random.bit_generator import ISeedSequence
 
+_LITTLE_ENDIAN = np.dtype("<u8")
+
 
 class _Words(ISeedSequence):
     """Hands a generator the words it starts from; NumPy's own way takes three times as long."""
@@ -54,5 +56,5 @@ class Streams:
         """Open the stream called ``name``, number ``index``, at its beginning."""
         digest = _hash(self.seed, name).copy()
         digest.update(int(index).to_bytes(8, "little", signed=True))
-        words = np.frombuffer(digest.digest(), dtype="<u8").astype(np.uint64, copy=False)
+        words = np.frombuffer(digest.digest(), _LITTLE_ENDIAN).astype(np.uint64, copy=False)
         return np.random.Generator(np.random.PCG64(cast(Any, _Words(words))))

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any, Protocol
 
 from sgim.errors import SpaceError, unknown
 from sgim.records import Goal, Outcome, Trajectory
-from sgim.spaces import Space, space_from_description
+from sgim.spaces import Box, Space, space_from_description
 
 
 class Primitive(Protocol):
@@ -100,7 +100,8 @@ class Task:
             SpaceError: If it is not a mapping, or a point is malformed.
             UnknownNameError: If a kind is not one of the task's.
         """
-        if not isinstance(outcome, Mapping):
+        # The exact type first: asking whether it is a mapping takes as long as checking a point.
+        if type(outcome) is not dict and not isinstance(outcome, Mapping):
             raise SpaceError(
                 f"outcome is a {type(outcome).__name__}, expected a mapping kind → point "
                 f"with kinds among {', '.join(self.outcome_spaces)}; {{}} if nothing was produced"
@@ -119,6 +120,13 @@ class Task:
         if space is None:
             raise unknown("goal kind", kind, self.goal_spaces)
         return Goal(kind, space.check(point, f"goal {kind!r}"))
+
+    def check_goals(self, kind: str, points: Sequence[Any]) -> list[Goal]:
+        """As `check_goal` for several points of one kind."""
+        space = self.goal_spaces.get(kind)
+        if not isinstance(space, Box):
+            return [self.check_goal(kind, point) for point in points]
+        return [Goal(kind, point) for point in space.check_all(points, f"goal {kind!r}")]
 
     def check_context(self, context: Any) -> Any:
         """Return ``context`` checked by its space; None where the task has no context."""

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Callable, Sequence
-from contextlib import suppress
 from typing import Any
 
 import numpy as np
@@ -202,18 +201,27 @@ class Transitions:
         """The policy that an episode's explorer proposes next; None if it must ask first."""
         if running.must_ask:
             return None
-        return self.sealed(running.mode.explorer.propose([running.episode]))[0]
+        return self.sealed(running.mode.explorer.propose([running.episode])[0])
 
-    def sealed(self, policies: Sequence[Any]) -> list[Any]:
-        """Proposed policies, checked, and such that no world can change what is remembered."""
+    def sealed(self, policy: Any) -> Any:
+        """A proposed policy, checked, and such that no world can change what is remembered."""
+        point = self.task.check_policy(policy)
+        if isinstance(self.task.policy_space, Box):  # whose points are arrays, checked in a copy
+            point.setflags(write=False)
+        return point
+
+    def all_sealed(self, policies: Sequence[Any]) -> list[Any]:
+        """As `sealed` for each of several policies; those of a box all at once."""
         space = self.task.policy_space
-        if isinstance(space, Box):  # all at once: this comes with every plan
-            with suppress(TypeError, ValueError):  # what is malformed is named one by one, below
+        if isinstance(space, Box):
+            try:
                 points = np.array(policies, dtype=np.float64)
-                if points.shape[1:] == space.low.shape and space.contains(points):
-                    points.flags.writeable = False
-                    return list(points)
-        return [self.task.check_policy(policy) for policy in policies]
+            except (TypeError, ValueError):  # what is malformed is named one by one, below
+                points = np.empty(0)
+            if points.shape[1:] == space.low.shape and space.contains(points):
+                points.setflags(write=False)
+                return list(points)
+        return [self.sealed(policy) for policy in policies]
 
     def issue(self, running: Running, policy: Any) -> Plan:
         """Give out an episode's next plan: this policy, or a request if it must ask."""

@@ -20,6 +20,7 @@ from sgim.configurations import CONFIGURATIONS, Configuration
 from sgim.environments import AirHockey
 from sgim.errors import JournalError
 from sgim.events import Answered, Ended, Opened, Told
+from sgim.outcome.expected_gain import ExpectedGain
 from sgim.outcome.region_tree import RegionTree
 from sgim.policy.local_search import LocalSearch
 from sgim.policy.model import NearestModel
@@ -295,7 +296,7 @@ def test_the_page_of_configurations_has_every_constant_as_it_is(name: str) -> No
     assert shown == {constant: str(getattr(configuration, constant)) for constant in names[1:]}
 
 
-PARTS = (NearestModel, NelderMeadSearch, LocalSearch, NoisyNearest, RegionTree)
+PARTS = (NearestModel, NelderMeadSearch, LocalSearch, NoisyNearest, RegionTree, ExpectedGain)
 
 
 def test_the_page_of_configurations_has_the_constants_of_the_parts() -> None:

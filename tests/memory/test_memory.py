@@ -1,3 +1,4 @@
+import copy
 from typing import Any
 
 import numpy as np
@@ -196,3 +197,13 @@ def test_labels_as_outcomes_have_neighbours() -> None:
     distances, rows = memory.kinds["word"].nearest(memory.key("word", "ba", None), 2)
     assert rows.tolist() == [1, 0]
     assert distances.tolist() == pytest.approx([0.0, 1.0])
+
+
+def test_a_copy_of_a_memory_grows_by_itself() -> None:
+    memory = Memory(Task(Choices(["ba", "da"]), {"word": Choices(["ba", "da"])}))
+    memory.add(Trial("ba", {"word": "da"}))
+    again = copy.deepcopy(memory)
+    again.add(Trial("da", {"word": "ba"}))
+    memory.add(Trial("ba", {"word": "ba"}))
+    assert [memory.trial(number).policy for number in range(2)] == ["ba", "ba"]
+    assert [again.trial(number).policy for number in range(2)] == ["ba", "da"]

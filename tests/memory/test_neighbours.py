@@ -308,3 +308,16 @@ def test_many_points_asked_at_once_get_the_answers_of_one_by_one(dimension):
         one = found.query(point, 1)
         assert (distances[i] == one[0]).all()
         assert (indices[i] == one[1]).all()
+
+
+@pytest.mark.parametrize("buffer_size", [4, 1000])
+def test_gaps_are_the_distances_to_the_nearest(buffer_size: int) -> None:
+    rng = np.random.default_rng(0)
+    neighbours = NearestNeighbours(3, buffer_size=buffer_size)
+    asked = rng.random((20, 3))
+    assert np.isinf(neighbours.gaps(asked)).all()
+    for _ in range(8):
+        neighbours.extend(rng.random((9, 3)))
+        expected = neighbours.query_batch(asked, 1)[0][:, 0]
+        np.testing.assert_allclose(neighbours.gaps(asked), expected, rtol=1e-12)
+    assert neighbours.gaps(neighbours.points[:3]) == pytest.approx(0.0, abs=1e-15)

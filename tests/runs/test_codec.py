@@ -1,5 +1,7 @@
 """Rows of the journal hold events exactly, and refuse what they cannot hold."""
 
+import json
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -165,6 +167,17 @@ def test_measures_may_be_numpy_scalars(task):
     event = e.Closed(0, "random", None, np.float64(-0.25), np.float32(0.5), np.int64(3))
     ((_, decoded),) = Codec(task).decode(numbered(Codec(task).encode(event)))
     assert (decoded.before, decoded.after, decoded.movements) == (-0.25, 0.5, 3)
+
+
+@given(
+    st.none() | st.floats() | st.floats().map(np.float64),
+    st.integers() | st.integers(0, 2**31).map(np.int64),
+)
+def test_measures_are_written_as_json_has_them(before, movements):
+    task = Task(Box(0, 1), {"throw": Box(0, 1)})
+    (row,) = Codec(task).encode(e.Closed(0, "random", None, before, -0.5, movements))
+    plain = {"before": before, "after": -0.5, "movements": int(movements)}
+    assert row[-1] == json.dumps(plain)
 
 
 def test_a_reason_that_utf8_cannot_hold_is_recorded_readably(task):

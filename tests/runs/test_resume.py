@@ -13,6 +13,7 @@ import sys
 import time
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from sgim import algorithms
@@ -22,7 +23,9 @@ from sgim.environments.throwing import ThrowingArm
 from sgim.environments.throwing_teachers import throwing_teachers
 from sgim.errors import JournalError, MismatchError
 from sgim.policy.local_search import LocalSearch
+from sgim.records import Demonstration
 from sgim.runs import Benchmark, Run
+from sgim.teachers import LeastExplored
 
 Rows = list[tuple[object, ...]]
 
@@ -121,6 +124,31 @@ def test_a_noisy_world_with_contexts_resumes_exactly(tmp_path: Path) -> None:
         cut(tmp_path / "whole.sgim", part, place)
         go(part)
         assert rows(part) == rows(tmp_path / "whole.sgim")
+
+
+@pytest.mark.parametrize("batch", [1, 8])
+def test_a_run_with_a_watching_teacher_resumes_exactly(tmp_path: Path, batch: int) -> None:
+    arm = PlanarArm(3)
+    postures = np.random.default_rng(0).uniform(-arm.limit, arm.limit, (40, 3))
+    hands = arm.hands(postures)
+    demonstrations = [
+        Demonstration({"hand": hand}, policy=posture)
+        for hand, posture in zip(hands, postures, strict=True)
+    ]
+
+    def go(path: Path) -> None:
+        learner = algorithms.make("mimicry", arm.task, "watcher", seed=2)
+        watcher = LeastExplored(demonstrations, arm.task, kind="hand", tile=0.2)
+        with Run(learner, arm, {"watcher": watcher}, journal=path, batch=batch) as run:
+            run.go(90)
+
+    whole = tmp_path / "whole.sgim"
+    go(whole)
+    for place in whole_outcomes(whole)[::9]:
+        part = tmp_path / f"{place}.sgim"
+        cut(whole, part, place)
+        go(part)
+        assert rows(part) == rows(whole), f"cut after event {place}"
 
 
 SCRIPT = """

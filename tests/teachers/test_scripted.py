@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from sgim.errors import TeacherError
-from sgim.records import Demonstration, Goal, Trajectory
+from sgim.records import Demonstration, Goal, Outcome, Trajectory
 from sgim.teachers import CorrespondenceError, ScriptedTeacher
 
 RNG = np.random.default_rng(0)
@@ -48,3 +48,15 @@ def test_a_trajectory_cannot_be_distorted() -> None:
     films = ScriptedTeacher(lambda goal: Demonstration(outcome={}, trajectory=trajectory))
     with pytest.raises(TeacherError, match="got a trajectory"):
         CorrespondenceError(films, lambda policy: policy).demonstrate(None, RNG)
+
+
+def test_a_misperceived_teacher_still_watches_the_learner() -> None:
+    seen = []
+
+    class Watching(ScriptedTeacher):
+        def observe(self, outcome: Outcome) -> None:
+            seen.append(outcome)
+
+    CorrespondenceError(Watching(script), lambda policy: policy).observe({"place": 0.5})
+    CorrespondenceError(ScriptedTeacher(script), lambda policy: policy).observe({"place": 0.7})
+    assert seen == [{"place": 0.5}]

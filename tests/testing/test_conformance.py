@@ -116,8 +116,8 @@ def test_every_region_tree_passes(task: Task, credit: Any, measure: Any) -> None
 @pytest.mark.parametrize("task", VECTOR_TASKS.values(), ids=VECTOR_TASKS.keys())
 @pytest.mark.parametrize("goals", [1, 3])
 def test_every_map_of_expected_gain_passes(task: Task, goals: int) -> None:
-    def lacks(chosen: Any, context: Any) -> Any:
-        return np.array([task.goal_spaces[g.kind].encode(g.point)[0] for g in chosen])
+    def lacks(kind: str, places: Any, context: Any) -> Any:
+        return places[:, 0]
 
     def make() -> ExpectedGain:
         return ExpectedGain(

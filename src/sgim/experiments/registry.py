@@ -11,6 +11,7 @@ from sgim.environments.hockey import AirHockey
 from sgim.environments.hockey_teacher import hockey_teachers
 from sgim.errors import unknown
 from sgim.experiments.experiment import Experiment
+from sgim.experiments.fishing import FISHING
 from sgim.experiments.throwing import THROWING, THROWING_VARIANTS
 from sgim.runs.benchmark import Benchmark
 
@@ -49,7 +50,14 @@ HOCKEY = Experiment(
 )
 
 EXPERIMENTS = {
-    e.name: e for e in [THROWING, *THROWING_VARIANTS, HOCKEY, *(_arm(name) for name in ARMS)]
+    e.name: e
+    for e in [
+        THROWING,
+        *THROWING_VARIANTS,
+        HOCKEY,
+        *FISHING,
+        *(_arm(name) for name in ARMS),
+    ]
 }
 
 

@@ -6,6 +6,14 @@ from sgim.figures.choices import choices
 from sgim.figures.choices_by_kind import choices_by_kind
 from sgim.figures.error_curves import error_curves
 from sgim.figures.explored import explored
+from sgim.figures.fishing import fishing_movement
 from sgim.figures.hockey_shots import hockey_shots
 
-__all__ = ["choices", "choices_by_kind", "error_curves", "explored", "hockey_shots"]
+__all__ = [
+    "choices",
+    "choices_by_kind",
+    "error_curves",
+    "explored",
+    "fishing_movement",
+    "hockey_shots",
+]

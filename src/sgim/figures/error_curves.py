@@ -61,8 +61,8 @@ def error_curves(
         raise SgimError("no run was evaluated: there are no errors to draw")
     groups = by_learner(runs)
     kinds = list(runs[0].evaluations[-1].errors)
-    if len(kinds) == 2:
-        kinds.remove("total")  # the same as the only kind
+    if all(e.errors["total"] == e.errors[kinds[0]] for run in runs for e in run.evaluations):
+        kinds.remove("total")  # there is one kind only
     spent = None if prices is None else _spending(groups)
     labels = [
         name if len(members) == 1 else f"{name} ({len(members)} runs)"

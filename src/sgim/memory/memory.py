@@ -30,20 +30,25 @@ class PointColumn:
 
     def append(self, point: Any) -> None:
         """Add a checked point."""
-        if self._vectors is not None:
-            self._vectors.append(point)
-        else:
-            self._objects.append(point)
+        (self._objects if self._vectors is None else self._vectors).append(point)
 
     def __getitem__(self, row: int) -> Any:
         if self._vectors is not None:
             return self._vectors.rows[row].copy()
         return self._objects[row]
 
+    def points(self, rows: IntArray) -> list[Any]:
+        """The points of several rows."""
+        if self._vectors is not None:
+            return list(self._vectors.rows[rows])
+        return [self._objects[row] for row in rows.tolist()]
+
     def encoded(self, rows: IntArray | slice) -> FloatArray:
         """Points of these rows scaled to the unit box, shape ``(n, dimension)``."""
         if self._box is not None and self._vectors is not None:
-            return self._box.encode(self._vectors.rows[rows])
+            points = self._vectors.rows
+            some = points[rows] if isinstance(rows, slice) else points.take(rows, axis=0)
+            return self._box.encode(some)
         chosen = (
             self._objects[rows] if isinstance(rows, slice) else [self._objects[i] for i in rows]
         )
@@ -69,6 +74,8 @@ class KindMemory:
     def __init__(
         self, outcome_space: Space, context_space: Space | None, policies: PointColumn
     ) -> None:
+        self.space = outcome_space
+        self.context_space = context_space
         self.dimension = outcome_space.dimension
         self.outcomes = PointColumn(outcome_space)
         self.trials = Column(0, np.int64)
@@ -81,12 +88,19 @@ class KindMemory:
     def __len__(self) -> int:
         return len(self.trials)
 
-    def append(self, trial: int, outcome: Any, key: FloatArray | None) -> None:
+    def append(self, trial: int, outcome: Any, context: Any) -> None:
         """Add the trial of this number, its outcome of this kind, and its key if it has one."""
         self.trials.append(trial)
         self.outcomes.append(outcome)
-        if key is not None:
-            self.keys.append(key)
+        if self.dimension is not None:
+            self.keys.append(self.key(outcome, context))
+
+    def key(self, point: Any, context: Any) -> FloatArray:
+        """The key of an outcome or goal of this kind in this context."""
+        vector = self.space.encode(point)
+        if self.context_space is None:
+            return vector
+        return np.concatenate((vector, self.context_space.encode(context)))
 
     def nearest(self, key: FloatArray, k: int) -> tuple[FloatArray, IntArray]:
         """The k rows with the nearest keys.
@@ -102,6 +116,11 @@ class KindMemory:
         self._index_new()
         return self._index.query_batch(keys, k)
 
+    def gaps(self, keys: FloatArray) -> FloatArray:
+        """How far each of some keys, shape ``(m, d)``, is from the nearest row's; else infinite."""
+        self._index_new()
+        return self._index.gaps(keys)
+
     def nearest_policies(self, policy: FloatArray, k: int) -> tuple[FloatArray, IntArray]:
         """The k rows whose policies, scaled to the unit box, are nearest to ``policy``."""
         index = self._policy_index
@@ -113,7 +132,10 @@ class KindMemory:
 
     def encoded_policies(self, rows: IntArray | slice) -> FloatArray:
         """The policies of these rows scaled to the unit box, shape ``(n, policy dimension)``."""
-        return self._policies.encoded(self.trials.rows[rows])
+        trials = self.trials.rows
+        return self._policies.encoded(
+            trials[rows] if isinstance(rows, slice) else trials.take(rows)
+        )
 
     def _index_new(self) -> None:
         known = len(self._index)
@@ -148,18 +170,13 @@ class Memory:
         if self._contexts is not None:
             self._contexts.append(trial.context)
         for kind, point in trial.outcome.items():
-            memory = self.kinds[kind]
-            key = None if memory.dimension is None else self.key(kind, point, trial.context)
-            memory.append(number, point, key)
+            self.kinds[kind].append(number, point, trial.context)
         self._length = number + 1
         return number
 
     def key(self, kind: str, point: Any, context: Any) -> FloatArray:
         """The key of an outcome or goal of this kind in this context (see `KindMemory`)."""
-        vector = self.task.outcome_spaces[kind].encode(point)
-        if self.task.context_space is None:
-            return vector
-        return np.concatenate((vector, self.task.context_space.encode(context)))
+        return self.kinds[kind].key(point, context)
 
     def keys(self, kind: str, points: Sequence[Any], contexts: Sequence[Any]) -> FloatArray:
         """The keys of many outcomes or goals of a kind, shape ``(n, key dimension)``."""

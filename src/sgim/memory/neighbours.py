@@ -24,6 +24,7 @@ Neighbours = tuple[FloatArray, IndexArray]
 _Answer = tuple[IndexArray, Any]  # What one tree proposes: rows, and where it stopped.
 
 _LARGEST = 1e150  # Of a coordinate's magnitude: squares of differences must not overflow.
+_FEW = 64  # Coordinates for which plain numbers are faster than arrays.
 _WORTH_A_TREE = 64  # Points asked for at once, for which a tree over the newest pays.
 _MERGE_RATIO = 6  # Raising it leaves fewer trees to ask, and merges more; 4 to 6 is best at 10^6.
 # Trees round, and underflow, in their own way: asking for this much more loses no point.
@@ -39,10 +40,12 @@ def _at_least_one(name: str, value: int) -> int:
 def _squared_distances(columns: FloatArray, point: FloatArray) -> FloatArray:
     """Squared distances to ``point`` of the points in ``columns``, shape (d, n).
 
+    ``point`` may also have a column for each of them.
+
     The sum adds one coordinate at a time, in order, whatever n is: a point's distance is the
     same to the last bit wherever the point is stored.
     """
-    differences = columns - point[:, None]
+    differences = columns - (point[:, None] if point.ndim == 1 else point)
     differences *= differences
     total: FloatArray = differences[0]
     for squares in differences[1:]:
@@ -66,8 +69,19 @@ def _bound_on_smallest(values: FloatArray, k: int) -> float:
         return math.inf
     # If k groups have a minimum <= b, k values are <= b; minima cost less than selection.
     if (group := len(values) // (8 * k)) > 1:
-        values = values[: len(values) // group * group].reshape(group, -1).min(axis=0)
-    return float(np.partition(values, k - 1)[k - 1])
+        groups = values[: len(values) // group * group].reshape(group, -1)
+        values = np.minimum.reduce(groups, axis=0)
+    else:
+        values = values.copy()
+    values.partition(k - 1)
+    return float(values[k - 1])
+
+
+def _sorted(squares: FloatArray, indices: IndexArray, k: int) -> Neighbours:
+    """The k nearest, given squared distances of points whose indices ascend."""
+    distances = np.sqrt(squares)  # Unequal squares can have equal roots.
+    order = distances.argsort(kind="stable")[:k]  # Stable: of equally distant ones the oldest.
+    return distances[order], indices[order]
 
 
 def _group_equal(points: FloatArray) -> tuple[IndexArray, IndexArray]:
@@ -171,13 +185,14 @@ class NearestNeighbours:
     def extend(self, points: ArrayLike) -> None:
         """Add points, shape (n, d): all or, on an error, none. Answers are as after `add`."""
         checked = self._check(points, 2)
-        count = self._count + len(checked)
+        start, count = self._count, self._count + len(checked)
         self._reserve(count)
-        self._storage[self._count : count] = checked
+        self._storage[start:count] = checked
         self._count = count
         if count - self._in_trees >= self._buffer.shape[1]:
             self._merge()
-        self._buffer[:, : count - self._in_trees] = self._storage[self._in_trees : count].T
+        else:
+            self._buffer[:, start - self._in_trees : count - self._in_trees] = checked.T
 
     def query(self, point: ArrayLike, k: int) -> Neighbours:
         """Find the k nearest to a point, shape (d,): two arrays of shape (min(k, n),)."""
@@ -224,6 +239,24 @@ class NearestNeighbours:
         doubtful = np.any([horizon <= reach for _, horizon in answers], axis=0)
         return [int(i) for i in np.flatnonzero(doubtful)]
 
+    def gaps(self, points: ArrayLike) -> FloatArray:
+        """How far each of m points, shape (m, d), is from the nearest: shape (m,).
+
+        Faster than to find which one that is; infinite while there is none.
+        """
+        checked = self._check(points, 2)
+        newest = self._buffer[:, : self._count - self._in_trees]
+        squares = np.full(len(checked), math.inf)
+        if newest.shape[1]:
+            squares[:] = [_squared_distances(newest, point).min() for point in checked]
+        for tree in self._trees:
+            rows, _ = tree.nearest(checked, 1)  # the two nearest: trees round in their own way
+            for candidates in tree.firsts(rows).T:
+                apart = _squared_distances(self._storage.take(candidates, axis=0).T, checked.T)
+                np.minimum(squares, apart, out=squares)
+        gaps: FloatArray = np.sqrt(squares)
+        return gaps
+
     def within(self, point: ArrayLike, radius: float) -> Neighbours:
         """Find all at most ``radius`` from a point, shape (d,): distances and indices, sorted."""
         checked, radius = self._check(point, 1), float(radius)
@@ -237,33 +270,36 @@ class NearestNeighbours:
 
     def _select(self, point: FloatArray, answers: list[_Answer], k: int) -> Neighbours:
         """The k nearest, given what each tree answered."""
+        if not answers:
+            return self._rank(point, [], k, math.inf)
         parts = [self._trees[i].indices(rows, k) for i, (rows, _) in enumerate(answers)]
         nearest = self._rank(point, parts, k, math.inf)
-        if answers:
-            # A tree whose answer ends within reach may hide points as near as the k-th.
-            reach = float(nearest[0][-1]) * _SLACK + _TINY
-            cut = [i for i, (_, horizon) in enumerate(answers) if horizon <= reach]
-            for i in cut:
-                parts[i] = self._trees[i].within(point, reach, k)
-            return self._rank(point, parts, k, reach) if cut else nearest
-        return nearest
+        # A tree whose answer ends within reach may hide points as near as the k-th.
+        reach = float(nearest[0][-1]) * _SLACK + _TINY
+        cut = [i for i, (_, horizon) in enumerate(answers) if horizon <= reach]
+        for i in cut:
+            parts[i] = self._trees[i].within(point, reach, k)
+        return self._rank(point, parts, k, reach) if cut else nearest
 
     def _rank(self, point: FloatArray, parts: list[IndexArray], k: int, reach: float) -> Neighbours:
         """The k nearest, or those within ``reach`` if fewer, of the newest and of ``parts``."""
         newest = self._count - self._in_trees
         squares = _squared_distances(self._buffer[:, :newest], point)
-        if parts:
-            older = np.concatenate(parts)
-            squares = np.concatenate((squares, _squared_distances(self._storage[older].T, point)))
-        limit = reach * reach if reach < math.inf else _bound_on_smallest(squares, k)
-        near = np.flatnonzero(squares <= limit * _SLACK)  # Unequal squares can have equal roots.
-        indices = near + self._in_trees
-        if parts:
-            split = near.searchsorted(newest)
-            indices[split:] = older[near[split:] - newest]
-        distances = np.sqrt(squares[near])
-        order = np.lexsort((indices, distances))[:k]
-        return distances[order], indices[order]
+        if not parts:
+            limit = reach * reach if reach < math.inf else _bound_on_smallest(squares, k)
+            near = (squares <= limit * _SLACK).nonzero()[0]
+            return _sorted(squares[near], near + self._in_trees, k)
+        older = np.concatenate(parts)
+        older.sort()
+        apart = _squared_distances(self._storage.take(older, axis=0).T, point)
+        if reach < math.inf:
+            limit = reach * reach
+        else:  # The few from trees bound the k-th nearest well, unless they are fewer than k.
+            few = apart if len(apart) >= k else np.concatenate((apart, squares))
+            limit = _bound_on_smallest(few, k)
+        near, kept = (squares <= limit * _SLACK).nonzero()[0], apart <= limit * _SLACK
+        squares = np.concatenate((apart[kept], squares[near]))
+        return _sorted(squares, np.concatenate((older[kept], near + self._in_trees)), k)
 
     def _merge(self) -> None:
         """Move the newest points into a tree, with the trees too small to stay beside it."""
@@ -283,8 +319,8 @@ class NearestNeighbours:
             what = "point has" if ndim == 1 else "points have"
             expected = f"({self.dimension},)" if ndim == 1 else f"(n, {self.dimension})"
             raise ValueError(f"{what} shape {checked.shape}, expected {expected}")
-        # The norm of one point bounds its coordinates, and is NaN or infinite if one is.
-        if ndim == 2 or not math.hypot(*checked.tolist()) <= _LARGEST:
+        # A norm bounds every coordinate, and is NaN or infinite if one is.
+        if checked.size > _FEW or not math.hypot(*checked.ravel().tolist()) <= _LARGEST:
             bad = checked[~(np.abs(checked) <= _LARGEST)]
             if bad.size:
                 raise ValueError(f"coordinate is {bad[0]}, expected finite, at most {_LARGEST:g}")

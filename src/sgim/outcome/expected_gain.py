@@ -11,13 +11,15 @@ import numpy as np
 
 from sgim.outcome.interest import EpisodeReport
 from sgim.outcome.partition import Partition, Region
-from sgim.outcome.weights import BlockSums
 from sgim.records import Goal
 from sgim.spaces import FloatArray, Space
 from sgim.streams import Streams
 
-Lacks = Callable[[Sequence[Goal], Any], FloatArray]
-"""What is lacking now, in [0, 1], for each of some goals in a context: minus the competence."""
+Lacks = Callable[[str, FloatArray, Any], FloatArray]
+"""What is lacking now, in [0, 1], for goals of a kind in a context: minus the competence.
+
+The goals are scaled to the unit box, shape ``(m, d)``.
+"""
 
 
 class Attempt(NamedTuple):
@@ -50,7 +52,7 @@ class ExpectedGain(Partition):
     Args:
         goal_spaces: Kind → goal space; each must be a `Box`.
         modes: Mode name → cost κ, by which gain is divided.
-        lacks: What is lacking now for given goals.
+        lacks: What is lacking now at given places of the unit box.
         streams: Random streams, for the candidate splits.
         context_space: The task's context space if there is one; it must be a `Box`.
         capacity: Most attempts in a region before it is split.
@@ -104,8 +106,8 @@ class ExpectedGain(Partition):
         self._lack = np.ones(64)
         self._shares = np.full((64, len(modes)), prior)
         self._weights = np.zeros((64, len(modes)))
-        self._sums = BlockSums(above_least=False)
-        self._draws = 3 + max(box.dimension for box in self.spaces.values())
+        self._totals = np.zeros(64)
+        self._draws = 2 + max(box.dimension for box in self.spaces.values())
         for kind in self.spaces:
             root = self.plant(kind, [])
             self._reserve()
@@ -175,75 +177,76 @@ class ExpectedGain(Partition):
             values = values * (values / best) ** (self.sharpness - 1)
         d = self.spaces[region.kind].dimension
         volume = math.prod((region.high[:d] - region.low[:d]).tolist())
-        self._weights[row] = values * (volume * float(self._lack[row]))
-        self._sums.refresh(self._weights[: len(self.leaves)], row)
+        self._weights[row] = weights = values * (volume * float(self._lack[row]))
+        self._totals[row] = weights.sum()
 
     def _reserve(self) -> None:
         if len(self.leaves) > len(self._lack):
             self._lack = np.concatenate((self._lack, np.ones_like(self._lack)))
             self._shares = np.concatenate((self._shares, np.empty_like(self._shares)))
             self._weights = np.concatenate((self._weights, np.zeros_like(self._weights)))
+            self._totals = np.concatenate((self._totals, np.zeros_like(self._totals)))
 
     def choose(
         self, rng: np.random.Generator, modes: Sequence[str], context: Any
     ) -> tuple[Goal, str]:
         """Choose the most promising of a few goals, each drawn with one of ``modes``."""
-        if len(modes) == len(self._names):
-            modes = self._names
-        columns = [self.modes[mode] for mode in modes]
-        draws = [
-            self._draw(numbers, modes, columns, context)
-            for numbers in rng.random((self.goals, self._draws)).tolist()
-        ]
-        lacks = self.lacks([goal for goal, *_ in draws], context) if len(draws) > 1 else [1.0]
-        gains = [
-            lack * float(self._shares[row, self.modes[mode]] / self.costs[self.modes[mode]])
-            for lack, (_, mode, row) in zip(lacks, draws, strict=True)
-        ]
-        goal, mode, _ = draws[gains.index(max(gains))]
-        return goal, mode
-
-    def _draw(
-        self, numbers: list[float], modes: Sequence[str], columns: list[int], context: Any
-    ) -> tuple[Goal, str, int]:
-        """A goal, a mode, and the row of the goal's region, from random numbers in [0, 1)."""
-        rule, pick, which, *place = numbers
-        if rule >= self.uniform:
-            region, mode = self._pick(pick, modes, columns, context)
-            d = self.spaces[region.kind].dimension
-            corners = zip(place, region.low[:d].tolist(), region.high[:d].tolist(), strict=False)
-            point = np.array([low + share * (high - low) for share, low, high in corners])
-            return Goal(region.kind, self.spaces[region.kind].decode(point)), mode, region.leaf
-        kind = tuple(self.spaces)[int(pick * len(self.spaces))]
-        space = self.spaces[kind]
-        goal = Goal(kind, space.decode(np.array(place[: space.dimension])))
-        region = self._around(goal, context)
-        weights = self._weights[region.leaf, columns].cumsum()
-        chosen = int(weights.searchsorted(which * weights[-1], "right")) if weights[-1] > 0 else 0
-        return goal, modes[min(chosen, len(modes) - 1)], region.leaf
-
-    def _around(self, goal: Goal, context: Any) -> Region:
-        place = self.spaces[goal.kind].encode(goal.point)
-        if self.context_space is not None:
-            place = np.concatenate((place, np.clip(self.context_space.encode(context), 0.0, 1.0)))
-        return self.region_of(goal.kind, place)
-
-    def _pick(
-        self, pick: float, modes: Sequence[str], columns: list[int], context: Any
-    ) -> tuple[Region, str]:
-        """A region and a mode, with probability proportional to their weight."""
-        if self.context_space is None and len(columns) == len(self._names):
-            row, column = self._sums.draw(self._weights[: len(self.leaves)], pick)
-            return self.leaves[row], self._names[column]
+        offered = [self.modes[mode] for mode in modes]
+        everything = len(offered) == len(self.modes)
         leaves = self.present(context)
-        cumulated = self._weights[np.ix_(leaves, columns)].ravel().cumsum()
-        total = float(cumulated[-1])
-        if total > 0:
-            chosen = min(int(cumulated.searchsorted(pick * total, "right")), len(cumulated) - 1)
+        if everything and self.context_space is None:
+            totals = self._totals[: len(self.leaves)]
         else:
-            chosen = int(pick * len(cumulated))
-        row, column = divmod(chosen, len(columns))
-        return self.leaves[leaves[row]], modes[column]
+            totals = self._weights[np.ix_(leaves, offered)].sum(axis=1)
+        cumulated = totals.cumsum()
+        draws = []
+        for numbers in rng.random((self.goals, self._draws)).tolist():
+            rule, pick, *shares = numbers
+            if rule < self.uniform:
+                kind = tuple(self.spaces)[int(pick * len(self.spaces))]
+                place = shares[: self.spaces[kind].dimension]
+                region, pick = self._around(kind, place, context), rule / self.uniform
+            else:
+                wanted = pick * float(cumulated[-1])
+                i = min(int(cumulated.searchsorted(wanted, "right")), len(cumulated) - 1)
+                region = self.leaves[leaves[i]]
+                pick = (cumulated[i] - wanted) / totals[i] if totals[i] > 0 else rule
+                corners = zip(shares, region.low.tolist(), region.high.tolist(), strict=False)
+                place = [low + share * (high - low) for share, low, high in corners]
+                del place[self.spaces[region.kind].dimension :]
+            draws.append((region, place, self._mode(region, offered, pick)))
+        region, place, mode = draws[self._best(draws, context)] if len(draws) > 1 else draws[0]
+        goal = Goal(region.kind, self.spaces[region.kind].decode(np.array(place)))
+        return goal, self._names[mode]
+
+    def _mode(self, region: Region, offered: list[int], pick: float) -> int:
+        """One of the modes offered, with probability proportional to its weight in the region."""
+        if len(offered) == 1:
+            return offered[0]
+        row = self._weights[region.leaf].tolist()
+        left = pick * sum(row[mode] for mode in offered)
+        for mode in offered:
+            left -= row[mode]
+            if left < 0:
+                return mode
+        return offered[-1]
+
+    def _around(self, kind: str, place: list[float], context: Any) -> Region:
+        if self.context_space is None:
+            return self.region_of(kind, place)
+        here = np.clip(self.context_space.encode(context), 0.0, 1.0).tolist()
+        return self.region_of(kind, [*place, *here])
+
+    def _best(self, draws: list[tuple[Region, list[float], int]], context: Any) -> int:
+        """Which of the goals drawn has the largest expected gain, by what is lacking there now."""
+        gains = [0.0] * len(draws)
+        for kind in dict.fromkeys(region.kind for region, *_ in draws):
+            members = [i for i, (region, *_) in enumerate(draws) if region.kind == kind]
+            places = np.array([draws[i][1] for i in members])
+            for i, lack in zip(members, self.lacks(kind, places, context).tolist(), strict=True):
+                region, _, mode = draws[i]
+                gains[i] = lack * self._shares[region.leaf, mode] / self.costs[mode]
+        return gains.index(max(gains))
 
 
 def _mean_gain(attempts: Sequence[Attempt]) -> float:

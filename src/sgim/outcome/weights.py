@@ -12,15 +12,11 @@ _BLOCK = 64
 class BlockSums:
     """Sums and minima of a growing table's rows, block by block.
 
-    A draw then looks at one number a block, and at one block.
-
-    Args:
-        above_least: Whether probabilities are proportional to value − minimum, as in the thesis's
-            eq. 4.4, or to the value, which is then nowhere negative.
+    A draw with probability proportional to value − minimum then looks at one number a block, and
+    at one block.
     """
 
-    def __init__(self, *, above_least: bool = True) -> None:
-        self.above_least = above_least
+    def __init__(self) -> None:
         self._sums = np.zeros(0)
         self._minima = np.zeros(0)
         self._drawn_from: tuple[float, FloatArray, FloatArray] | None = None
@@ -37,13 +33,13 @@ class BlockSums:
         self._minima[block] = values.min()
 
     def draw(self, table: FloatArray, pick: float) -> tuple[int, int]:
-        """Row and column of the value at the share ``pick``, in [0, 1), of the sum of all.
+        """Row and column of the value at the share ``pick``, in [0, 1), of all that is above least.
 
-        All alike if that sum, of what is above the least or of the values, is 0.
+        All alike if no value is above the least.
         """
         rows, columns = table.shape
         if self._drawn_from is None:  # the same for all draws between two changes
-            least = float(self._minima.min()) if self.above_least else 0.0
+            least = float(self._minima.min())
             counts = np.full(len(self._sums), float(_BLOCK * columns))
             counts[-1] = (rows - _BLOCK * (len(counts) - 1)) * columns
             weights = np.maximum(self._sums - least * counts, 0.0)

@@ -91,8 +91,7 @@ class NearestModel:
         if kind not in trial.outcome:
             return None
         if trial is self._last:
-            last: FloatArray = self.memory.kinds[kind].keys.rows[-1]
-            return last
+            return self.memory.kinds[kind].keys.last
         return self.memory.key(kind, trial.outcome[kind], trial.context)
 
     def nearest(self, goal: Goal, context: Any) -> tuple[FloatArray, IntArray]:
@@ -110,18 +109,18 @@ class NearestModel:
         distances, _ = self.nearest(goal, context)
         return -min(1.0, float(distances[0])) if len(distances) else -1.0
 
-    def lacks(self, goals: Sequence[Goal], context: Any) -> FloatArray:
-        """The cost of each of some goals, in [0, 1]; 1 where the kind was never produced."""
-        costs = np.ones(len(goals))
-        by_kind: dict[str, list[int]] = {}
-        for i, goal in enumerate(goals):
-            by_kind.setdefault(goal.kind, []).append(i)
-        for kind, members in by_kind.items():
-            if len(self.memory.kinds[kind]):
-                points = [goals[i].point for i in members]
-                keys = self.memory.keys(kind, points, [context] * len(members))
-                distances, _ = self.memory.kinds[kind].nearest_batch(keys, 1)
-                costs[members] = np.minimum(distances[:, 0], 1.0)
+    def lacks(self, kind: str, places: FloatArray, context: Any) -> FloatArray:
+        """The cost of goals of a kind, in [0, 1]; 1 where it was never produced.
+
+        Args:
+            kind: The kind.
+            places: The goals, scaled to the unit box, shape ``(m, d)``.
+            context: The context of all of them.
+        """
+        if self.memory.task.context_space is not None:
+            here = self.memory.task.context_space.encode(context)
+            places = np.column_stack((places, np.tile(here, (len(places), 1))))
+        costs: FloatArray = np.minimum(self.memory.kinds[kind].gaps(places), 1.0)
         return costs
 
     def shown_by(self, trial: Trial, goal: Goal, context: Any) -> float:
@@ -130,14 +129,15 @@ class NearestModel:
         if key is None:
             return -1.0
         difference = key - self.goal_key(goal, context)
-        return -min(1.0, math.sqrt(difference @ difference))
+        return -min(1.0, math.sqrt(difference.dot(difference)))
 
     def best_policy(self, goal: Goal, context: Any) -> Any:
         """The policy of the nearest remembered outcome."""
         _, rows = self.nearest(goal, context)
         if not len(rows):
             raise NoAnswerError(f"no trial has produced an outcome of kind {goal.kind!r} yet")
-        return self._policy(goal.kind, int(rows[0]))
+        trials = self.memory.kinds[goal.kind].trials
+        return self.memory.policies[int(trials.rows[rows[0]])]
 
     def best_policies(self, goals: Sequence[Goal], contexts: Sequence[Any]) -> list[Any]:
         """The policies of the nearest remembered outcomes, by one query for all goals."""
@@ -149,10 +149,7 @@ class NearestModel:
             return [None] * len(goals)
         keys = self.memory.keys(kind, [goal.point for goal in goals], contexts)
         _, rows = memory.nearest_batch(keys, 1)
-        return [self._policy(kind, int(row)) for row in rows[:, 0]]
-
-    def _policy(self, kind: str, row: int) -> Any:
-        return self.memory.policies[int(self.memory.kinds[kind].trials.rows[row])]
+        return self.memory.policies.points(memory.trials.rows[rows[:, 0]])
 
     def solve(self, goal: Goal, context: Any) -> Solution:
         """The nearest trial, how much its outcome scatters, and whether the goal is near enough.

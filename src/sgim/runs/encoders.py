@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from typing import Any
 
@@ -154,8 +155,9 @@ class Encoders:
 
     def _closed(self, event: Closed) -> list[Row]:
         kind, point = self._goal(event.pursued)
-        detail = to_json(
-            {"before": event.before, "after": event.after, "movements": event.movements}
+        detail = (
+            f'{{"before": {_number(event.before)}, "after": {_number(event.after)}, '
+            f'"movements": {_number(event.movements)}}}'
         )
         return [("closed", event.episode, None, event.mode, kind, point, None, None, None, detail)]
 
@@ -174,6 +176,12 @@ class Encoders:
 
     def _context(self, context: Any) -> bytes | None:
         return None if context is None else self._present_context(context)
+
+
+def _number(value: float | None) -> str:
+    """A number as `to_json` writes it, which takes as long as the rest of a row."""
+    ordinary = (type(value) is float and math.isfinite(value)) or type(value) is int
+    return repr(value) if ordinary else to_json(value)
 
 
 def _trajectory(trajectory: Trajectory) -> str:

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -28,6 +27,7 @@ from sgim.events import (
     Suggested,
     Told,
 )
+from sgim.frozen import frozen
 from sgim.spaces import Space
 
 COLUMNS = (
@@ -86,7 +86,7 @@ DECLINED = "declined"
 """The detail of an answer without a demonstration."""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@frozen
 class RecordedPlan:
     """A plan as it was recorded: what does not follow from its episode.
 

@@ -125,6 +125,7 @@ class Run:
             header = {**(about or {}), "evaluate_every": evaluate_every, "batch": batch}
             kept = keep_journal(learner, journal, real=real, adopt=adopt, about=header)
             self.journal, replayed = kept.journal, kept.replayed
+            self.world.show_recorded(self.journal)
         self.learner = replayed.learner
         self.evaluations = replayed.evaluations
         self.difference = replayed.difference
@@ -254,6 +255,8 @@ class Run:
                 raise
             except SgimError as error:
                 self._failed("the world", error, plan)
+            else:
+                self.world.observed(outcome)
         if self.learner.movements % self.evaluate_every == 0:
             self._evaluate(observer)
 

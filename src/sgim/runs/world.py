@@ -7,9 +7,11 @@ from typing import Any
 
 from sgim.environments.base import MinimalEnvironment, draw_context, execute_all
 from sgim.errors import SgimError
+from sgim.events import Told
 from sgim.records import Demonstration, Outcome, Plan
+from sgim.runs.journal import Journal
 from sgim.streams import Streams
-from sgim.teachers import Teacher
+from sgim.teachers import Teacher, let_observe
 
 Executed = Outcome | Exception
 """What a trial produced, or how the world broke."""
@@ -53,6 +55,18 @@ class World:
         assert request is not None
         rng = self.streams(f"teacher/{request.teacher}", request.index)
         return self.teachers[request.teacher].demonstrate(request.goal, rng)
+
+    def observed(self, outcome: Outcome) -> None:
+        """Let the teachers who watch see what a movement produced."""
+        for teacher in self.teachers.values():
+            let_observe(teacher, outcome)
+
+    def show_recorded(self, journal: Journal) -> None:
+        """Let the teachers who watch see all that was recorded, as they did when it happened."""
+        if any(hasattr(teacher, "observe") for teacher in self.teachers.values()):
+            for event in journal.events(only=("told",)):
+                assert isinstance(event, Told)
+                self.observed(event.outcome)
 
     def execute(self, plan: Plan) -> Executed:
         """Execute one plan's policy; what was only watched is not executed."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sqlite3
 import time
+from collections import defaultdict
 from collections.abc import Callable, Sequence
 from contextlib import suppress
 from operator import itemgetter
@@ -28,11 +29,10 @@ def _insert(columns: Sequence[str]) -> str:
     return f"INSERT INTO events(seq, {', '.join(columns)}) VALUES ({marks})"
 
 
-def _shape(*columns: str) -> tuple[str, Callable[[Row], Any], Callable[[Row], Any]]:
-    """The statement that inserts only these columns, their values, and the others' values."""
-    others = [i for i, name in enumerate(COLUMNS) if name not in columns]
+def _shape(*columns: str) -> tuple[str, Callable[[Row], tuple[Any, ...]], int]:
+    """The statement that inserts only these columns, their values, and how many others remain."""
     places = [COLUMNS.index(name) for name in columns]
-    return _insert(columns), itemgetter(*places), itemgetter(*others)
+    return _insert(columns), itemgetter(*places), len(COLUMNS) - len(columns)
 
 
 _EVERYTHING = _insert(COLUMNS)
@@ -43,19 +43,18 @@ _SHAPES = {
     "opened": _shape("event", "episode", "name", "kind", "point", "detail"),
     "closed": _shape("event", "episode", "name", "kind", "point", "detail"),
 }
-_EMPTY = {name: (None,) * (len(COLUMNS) - 4) for name in ("planned", "told")}
-_EMPTY |= {name: (None,) * (len(COLUMNS) - 6) for name in ("opened", "closed")}
 
 
 def _by_shape(rows: list[Row], after: int, done: int) -> dict[str, list[tuple[Any, ...]]]:
     """Values to insert, each row's ``seq`` first, by the statement that inserts them."""
-    groups: dict[str, list[tuple[Any, ...]]] = {}
+    groups: defaultdict[str, list[tuple[Any, ...]]] = defaultdict(list)
     for seq, row in enumerate(rows[done:] if done else rows, start=after + done + 1):
         statement, values = _EVERYTHING, row
-        shape = _SHAPES.get(row[0])
-        if shape is not None and shape[2](row) == _EMPTY[row[0]]:
-            statement, values = shape[0], shape[1](row)
-        groups.setdefault(statement, []).append((seq, *values))
+        if row[0] in _SHAPES:
+            shorter, picked, others = _SHAPES[row[0]]
+            if row.count(None) == others and None not in (some := picked(row)):
+                statement, values = shorter, some
+        groups[statement].append((seq, *values))
     return groups
 
 
@@ -104,15 +103,12 @@ class Writer:
         Raises:
             JournalError: As `commit`; the rows are kept.
         """
-        waiting = self._waiting
+        waiting, now = self._waiting, time.monotonic()
         if not waiting.rows:
-            waiting.since = time.monotonic()
-        waiting.rows.extend(rows)
-        if (
-            self._durable
-            or len(waiting.rows) >= GROUP_ROWS
-            or time.monotonic() - waiting.since > GROUP_SECONDS
-        ):
+            waiting.since = now
+        waiting.rows += rows
+        full = len(waiting.rows) >= GROUP_ROWS or now - waiting.since > GROUP_SECONDS
+        if full or self._durable:
             self.commit()
 
     def commit(self) -> None:

@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 
 from sgim.errors import TeacherError
-from sgim.records import Demonstration, Goal
-from sgim.teachers.base import Teacher
+from sgim.records import Demonstration, Goal, Outcome
+from sgim.teachers.base import Teacher, let_observe
 
 
 @dataclass(frozen=True)
@@ -62,3 +62,7 @@ class CorrespondenceError:
         if shown.policy is None:
             raise TeacherError("only a demonstrated policy can be distorted, got a trajectory")
         return replace(shown, policy=self.distort(shown.policy))
+
+    def observe(self, outcome: Outcome) -> None:
+        """Let the teacher see it, if it watches."""
+        let_observe(self.teacher, outcome)
