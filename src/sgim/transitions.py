@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from sgim import ledger
-from sgim.errors import UnwrittenError, unknown
+from sgim.errors import UnwrittenError
 from sgim.events import (
     Available,
     Closed,
@@ -31,9 +31,8 @@ from sgim.policy.explorer import Episode
 from sgim.policy.model import CompetenceModel
 from sgim.records import Demonstration, Goal, Plan, Report, Trial
 from sgim.spaces import Box
-from sgim.strategy.modes import Mode
 from sgim.strategy.situation import Situation
-from sgim.strategy.strategy import Strategy
+from sgim.strategy.strategy import Strategy, mode_for, mode_named
 from sgim.streams import Streams
 from sgim.task import Task
 
@@ -82,28 +81,12 @@ class Transitions:
             chosen = self.task.check_goal(chosen.kind, chosen.point)
         if self._given:
             shown = self._shown(self._given[0], chosen)
-            mode = self._mode_for(self._given[0])
+            mode = mode_for(self.strategy, self._given[0])
             return Opened(number, mode.name, shown or chosen, context, "demonstration")
         if self._suggestions:
             mode = self.strategy.alone if mode.pursues == "nothing" else mode
             return Opened(number, mode.name, self._suggestions[0], context, "suggestion", budget)
         return Opened(number, mode.name, chosen, context, "strategy", budget)
-
-    def _mode_for(self, demonstration: Demonstration) -> Mode:
-        """How to learn from an unasked demonstration: as from its teacher, mimicry first."""
-        modes = [m for m in self.strategy.modes.values() if m.teacher == demonstration.teacher]
-        usable = [m for m in modes if m.needs_policy and demonstration.policy is not None]
-        usable += [m for m in modes if not m.needs_policy]
-        return usable[0] if usable else self.strategy.alone
-
-    def mode(self, name: str) -> Mode:
-        """The mode of this name; `UnknownNameError` if there is none."""
-        if name == self.strategy.alone.name:
-            return self.strategy.modes.get(name, self.strategy.alone)
-        mode = self.strategy.modes.get(name)
-        if mode is None:
-            raise unknown("mode", name, [*self.strategy.modes, self.strategy.alone.name])
-        return mode
 
     def open(self, event: Opened, *, live: bool = True) -> Running:
         """Open the episode that was decided; ``live`` if its explorer is to be used."""
@@ -114,7 +97,7 @@ class Transitions:
         if decided != number:
             rng = self.streams("learner", number)
         episode = Episode(number, event.goal, event.context, rng)
-        mode = self.mode(event.mode)
+        mode = mode_named(self.strategy, event.mode)
         running = Running(mode, event.goal, event.context, episode, live, event.budget)
         self.ledger.running[number] = running
         if event.cause == "suggestion":

@@ -12,7 +12,9 @@ from typing import Protocol
 
 import numpy as np
 
+from sgim.errors import unknown
 from sgim.outcome.interest import EpisodeReport, InterestMap
+from sgim.records import Demonstration
 from sgim.strategy.modes import Mode
 from sgim.strategy.news import News
 from sgim.strategy.situation import Choice, Situation
@@ -56,6 +58,24 @@ def by_name(modes: Sequence[Mode]) -> dict[str, Mode]:
     if len(named) < len(modes) or not modes:
         raise ValueError(f"modes need different names, got {[m.name for m in modes]}")
     return named
+
+
+def mode_named(strategy: Strategy, name: str) -> Mode:
+    """The strategy's mode of this name; `UnknownNameError` if there is none."""
+    if name == strategy.alone.name:
+        return strategy.modes.get(name, strategy.alone)
+    mode = strategy.modes.get(name)
+    if mode is None:
+        raise unknown("mode", name, [*strategy.modes, strategy.alone.name])
+    return mode
+
+
+def mode_for(strategy: Strategy, demonstration: Demonstration) -> Mode:
+    """How to learn from an unasked demonstration: as from its teacher, mimicry first."""
+    modes = [m for m in strategy.modes.values() if m.teacher == demonstration.teacher]
+    usable = [m for m in modes if m.needs_policy and demonstration.policy is not None]
+    usable += [m for m in modes if not m.needs_policy]
+    return usable[0] if usable else strategy.alone
 
 
 class JointChoice:
