@@ -25,6 +25,7 @@ SPINE = (
     {"configurations", "parts", "algorithms"},
     {"runs"},
     {"experiments"},
+    {"claims"},
     {"figures"},
 )
 """Each may know those before it, and its own."""
@@ -35,7 +36,7 @@ WORLD = {"environments", "teachers", "primitives"}
 MEASURES = {"statistics"}
 """Pure functions on arrays: they know the words, and those who measure runs know them."""
 
-DRIVERS = ("runs", "experiments", "figures")
+DRIVERS = ("runs", "experiments", "claims", "figures")
 """What brings learners and worlds together, and measures them."""
 
 LEARNER_CODE = ("memory", "policy", "outcome", "strategy", "learner.py", "configurations.py")

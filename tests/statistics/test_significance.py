@@ -12,6 +12,7 @@ from sgim.statistics import (
     holm,
     least_pairs,
     mann_whitney_p,
+    not_higher_p,
     probability_lower,
     rank_biserial,
     signed_rank_p,
@@ -151,3 +152,20 @@ def test_effect_sizes_by_hand() -> None:
     assert rank_biserial([1, -2, 3, 0]) == pytest.approx((1 - 2 + 3) / 6)
     assert probability_lower([1, 2], [2, 3], paired=False) == pytest.approx(3.5 / 4)
     assert probability_lower([1, 3], [2, 3], paired=True) == pytest.approx(0.75)
+
+
+@pytest.mark.parametrize("paired", [True, False])
+def test_not_to_be_higher_is_to_be_lower_or_higher_by_less_than_the_margin(paired: bool) -> None:
+    other = np.linspace(1.0, 1.1, 12)
+    for factor, shown in ((0.1, True), (1.0, True), (1.12, True), (1.4, False)):
+        p = not_higher_p(factor * other, other, paired=paired)
+        assert (p < 0.01) == shown
+    assert not_higher_p(other + 0.05, other, 0.2, paired=paired, relative=False) < 0.01
+    assert not_higher_p(other + 0.35, other, 0.2, paired=paired, relative=False) > 0.99
+
+
+def test_a_margin_that_cannot_be_is_refused() -> None:
+    with pytest.raises(SgimError, match="a share below 1"):
+        not_higher_p([1.0], [1.0], 1.2, paired=True)
+    with pytest.raises(SgimError, match="pass relative=False"):
+        not_higher_p([1.0], [-1.0], paired=True)

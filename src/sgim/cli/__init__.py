@@ -27,6 +27,7 @@ COMMANDS = {
     "answer": "Ask what was learned: the policy for a goal.",
     "sweep": "Run many learners with many seeds side by side.",
     "compare": "Which learner is better over its seeds, and whether that could be chance.",
+    "claims": "What is claimed of learners, and whether runs bear it out.",
     "plot": "Draw errors, choices and explored outcomes.",
 }
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import shlex
-from collections.abc import Mapping, Sequence
+from collections.abc import Container, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -14,19 +14,26 @@ MOST_ROWS = 12
 """Rows of a table of evaluations; of more, every so manieth is shown, up to the last."""
 
 
-def table(rows: Sequence[Sequence[str]], *, right: bool = False, indent: str = "  ") -> str:
+def table(
+    rows: Sequence[Sequence[str]],
+    *,
+    right: bool = False,
+    words: Container[int] = (),
+    indent: str = "  ",
+) -> str:
     """Rows as lines with aligned columns.
 
     Args:
         rows: The cells.
         right: Whether all columns but the first are aligned at the right.
+        words: Columns that are not, because they hold words.
         indent: What each line begins with.
     """
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
     lines = []
     for row in rows:
         cells = [
-            cell.rjust(width) if right and i else cell.ljust(width)
+            cell.rjust(width) if right and i and i not in words else cell.ljust(width)
             for i, (cell, width) in enumerate(zip(row, widths, strict=True))
         ]
         lines.append((indent + "  ".join(cells)).rstrip())

@@ -12,10 +12,9 @@ from sgim.runs.measured import MeasuredRun
 from sgim.spaces import FloatArray
 from sgim.statistics import (
     Estimate,
-    bootstrap_interval,
+    contrast_estimates,
     equivalence_p,
     holm,
-    interquartile_mean,
     least_pairs,
     mann_whitney_p,
     performance_profile,
@@ -182,17 +181,21 @@ def _against(
     group: Group, reference: Group, margin: float, streams: Streams, notes: list[str]
 ) -> dict[str, Any]:
     """The facts of a contrast, but for corrections."""
-    seeds = _common_seeds(group, reference, notes)
+    pair = f"{group.name} and {reference.name}"
+    seeds = common_seeds(pair, group.seeds, reference.seeds, notes)
     one, other = group.last, reference.last
     if seeds is not None:
         one, other = _of_seeds(group, seeds), _of_seeds(reference, seeds)
     paired = seeds is not None
+    rng = streams(f"bootstrap/{group.name}/{reference.name}")
+    difference, ratio = contrast_estimates(one, other, rng, paired=paired)
     lower = probability_lower(one, other, paired=paired)
     return {
         "name": group.name,
         "seeds": seeds,
         "counts": (len(one), len(other)),
-        **_estimates(one, other, paired, streams(f"bootstrap/{group.name}/{reference.name}")),
+        "difference": difference,
+        "ratio": ratio,
         "p": signed_rank_p(one - other) if paired else mann_whitney_p(one, other),
         "equivalence": equivalence_p(one, other, margin, paired=paired),
         "lower": lower,
@@ -200,15 +203,23 @@ def _against(
     }
 
 
-def _common_seeds(group: Group, reference: Group, notes: list[str]) -> list[int | None] | None:
-    """The seeds by which two groups are paired, or None; what is not plain is noted."""
-    pair = f"{group.name} and {reference.name}"
-    if None in group.seeds or None in reference.seeds:
+def common_seeds(
+    pair: str, ones: Sequence[int | None], others: Sequence[int | None], notes: list[str]
+) -> list[int | None] | None:
+    """The seeds by which the runs of two are paired; None if they are not.
+
+    Args:
+        pair: What the two are called in a note, such as ``"sgim-acts and random"``.
+        ones: Seeds of the runs of one.
+        others: Seeds of the runs of the other.
+        notes: What is not plain is added to these.
+    """
+    if None in ones or None in others:
         notes.append(f"{pair} are not paired: some of their journals do not say their seed")
         return None
-    if group.seeds == reference.seeds:
-        return group.seeds
-    common = [seed for seed in group.seeds if seed in {*reference.seeds}]
+    if [*ones] == [*others]:
+        return [*ones]
+    common = [seed for seed in ones if seed in {*others}]
     if len(common) >= FEWEST_COMMON:
         notes.append(f"{pair} have different seeds: compared on the {len(common)} they share")
         return common
@@ -219,22 +230,3 @@ def _common_seeds(group: Group, reference: Group, notes: list[str]) -> list[int 
 def _of_seeds(group: Group, seeds: Sequence[int | None]) -> FloatArray:
     by_seed: Mapping[int | None, float] = dict(zip(group.seeds, group.last, strict=True))
     return np.array([by_seed[seed] for seed in seeds])
-
-
-def _estimates(
-    one: FloatArray, other: FloatArray, paired: bool, rng: np.random.Generator
-) -> dict[str, Estimate]:
-    """Difference and ratio of the interquartile means; pairs are resampled together."""
-
-    def both(strata: Sequence[FloatArray]) -> FloatArray:
-        first, second = (strata[0][..., 0], strata[0][..., 1]) if paired else strata
-        a, b = interquartile_mean(first, axis=-1), interquartile_mean(second, axis=-1)
-        with np.errstate(divide="ignore", invalid="ignore"):
-            return np.stack([a - b, np.where(b > 0, a / b, np.nan)], axis=-1)
-
-    strata = [np.stack([one, other], axis=1)] if paired else [one, other]
-    values, (low, high) = both(strata), bootstrap_interval(strata, both, rng)
-    return {
-        name: Estimate(*(np.asarray(part[i]) for part in (values, low, high)))
-        for i, name in enumerate(("difference", "ratio"))
-    }

@@ -101,6 +101,35 @@ def interquartile_estimate(
     return Estimate(interquartile_mean(runs), np.asarray(low), np.asarray(high))
 
 
+def contrast_estimates(
+    one: FloatArray, other: FloatArray, rng: np.random.Generator, *, paired: bool
+) -> tuple[Estimate, Estimate]:
+    """Difference and ratio of two interquartile means, with their bootstrap intervals.
+
+    Args:
+        one: One number a run, shape ``(n,)``.
+        other: Shape ``(m,)``; with ``m == n`` if paired.
+        rng: Draws the resamples.
+        paired: Whether they belong together two by two; pairs are resampled together.
+
+    Returns:
+        ``one - other``, and ``one / other``, which is NaN where the other is 0.
+    """
+
+    def both(strata: Sequence[FloatArray]) -> FloatArray:
+        first, second = (strata[0][..., 0], strata[0][..., 1]) if paired else strata
+        a, b = interquartile_mean(first, axis=-1), interquartile_mean(second, axis=-1)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            return np.stack([a - b, np.where(b > 0, a / b, np.nan)], axis=-1)
+
+    strata = [np.stack([one, other], axis=1)] if paired else [one, other]
+    values, (low, high) = both(strata), bootstrap_interval(strata, both, rng)
+    difference, ratio = (
+        Estimate(*(np.asarray(part[i]) for part in (values, low, high))) for i in range(2)
+    )
+    return difference, ratio
+
+
 def _finite(values: FloatArray) -> Any:
     if values.ndim:
         return [_finite(value) for value in values]

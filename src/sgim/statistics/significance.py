@@ -80,7 +80,7 @@ def mann_whitney_p(
     return _tail(ways[n] / comb(len(doubled), n), int(doubled[:n].sum()), alternative)
 
 
-def equivalence_p(
+def not_higher_p(
     one: ArrayLike,
     other: ArrayLike,
     margin: float = 0.2,
@@ -88,13 +88,12 @@ def equivalence_p(
     paired: bool,
     relative: bool = True,
 ) -> float:
-    """P-value of equivalence: small if the two differ by less than the margin.
+    """P-value of not being higher: small if one is lower than the other, or higher by little.
 
-    Two one-sided tests (Schuirmann 1987): that one is not lower than the other by the margin, and
-    not higher; the larger of the two p-values. The tests are Wilcoxon's of the pairs, or Mann and
-    Whitney's. To differ by less than a share of the larger of the two is the same as
-    a > (1 − margin) b and b > (1 − margin) a, which is tested as it stands, as for ratios in
-    bioequivalence (Hauschke et al. 1999): no margin is estimated from the data.
+    A test of non-inferiority, one-sided: that one is not higher by the margin, as for ratios in
+    bioequivalence (Hauschke et al. 1999). To be higher by a share of the larger of the two is
+    b ≤ (1 − margin) a, which is tested as it stands: no margin is estimated from the data.
+    The test is Wilcoxon's of the pairs, or Mann and Whitney's.
 
     Args:
         one: Shape ``(n,)``.
@@ -106,20 +105,61 @@ def equivalence_p(
     Raises:
         SgimError: If the margin or the values are not of that sort.
     """
-    first, second = np.asarray(one, dtype=np.float64), np.asarray(other, dtype=np.float64)
+    bound, second = less_margin(one, margin, relative), np.asarray(other, dtype=np.float64)
+    if relative and second.min() < 0:
+        raise SgimError("a relative margin needs values of 0 or more; pass relative=False")
+    if paired:
+        return signed_rank_p(second - bound, "greater")
+    return mann_whitney_p(second, bound, "greater")
+
+
+def equivalence_p(
+    one: ArrayLike,
+    other: ArrayLike,
+    margin: float = 0.2,
+    *,
+    paired: bool,
+    relative: bool = True,
+) -> float:
+    """P-value of equivalence: small if the two differ by less than the margin.
+
+    Two one-sided tests (Schuirmann 1987): that one is not higher than the other by the margin, and
+    not lower; the larger of the two p-values.
+
+    Args:
+        one: Shape ``(n,)``.
+        other: Shape ``(m,)``; with ``m == n`` if paired.
+        margin: As in `not_higher_p`, which tests each side.
+        paired: Whether they belong together two by two.
+        relative: Whether the margin is a share of the larger. Values must then not be negative.
+
+    Raises:
+        SgimError: If the margin or the values are not of that sort.
+    """
+    return max(
+        not_higher_p(one, other, margin, paired=paired, relative=relative),
+        not_higher_p(other, one, margin, paired=paired, relative=relative),
+    )
+
+
+def less_margin(values: ArrayLike, margin: float, relative: bool) -> FloatArray:
+    """Values, less the margin: what another must exceed for them not to be higher than it.
+
+    Args:
+        values: Of any shape.
+        margin: A share of the values, in (0, 1), or absolute, above 0.
+        relative: Which of the two. Values must then not be negative.
+
+    Raises:
+        SgimError: If the margin or the values are not of that sort.
+    """
+    found = np.asarray(values, dtype=np.float64)
     if not margin > 0 or (relative and margin >= 1):
         below = ", a share below 1" if relative else ""
         raise SgimError(f"margin is {margin}, expected more than 0{below}, such as 0.2")
-    if relative and min(first.min(), second.min()) < 0:
+    if relative and found.min() < 0:
         raise SgimError("a relative margin needs values of 0 or more; pass relative=False")
-
-    def above(a: FloatArray, b: FloatArray) -> float:
-        bound = (1 - margin) * b if relative else b - margin
-        if paired:
-            return signed_rank_p(a - bound, "greater")
-        return mann_whitney_p(a, bound, "greater")
-
-    return max(above(first, second), above(second, first))
+    return (1 - margin) * found if relative else found - margin
 
 
 def holm(p_values: Sequence[float]) -> list[float]:

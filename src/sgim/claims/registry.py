@@ -1,0 +1,20 @@
+"""The chapters whose claims are declared."""
+
+from __future__ import annotations
+
+from sgim.claims.claim import Chapter
+from sgim.claims.throwing import THROWING
+from sgim.errors import unknown
+
+CHAPTERS = {chapter.name: chapter for chapter in (THROWING,)}
+
+
+def chapter(name: str) -> Chapter:
+    """The chapter of this name.
+
+    Raises:
+        UnknownNameError: If there is none; the message has the nearest name.
+    """
+    if name not in CHAPTERS:
+        raise unknown("chapter of claims", name, CHAPTERS)
+    return CHAPTERS[name]

@@ -1,0 +1,108 @@
+"""All claims over a folder of journals."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from sgim.claims.claim import Chapter, Verdicts, decide
+from sgim.claims.plausible import Plausible, count_worlds
+from sgim.claims.world import base_of, read_runs, worlds_of
+from sgim.errors import SgimError, unknown
+from sgim.experiments import EXPERIMENTS
+from sgim.runs.measured import MeasuredRun
+
+
+@dataclass(frozen=True)
+class Report:
+    """Verdicts world by world, and over worlds.
+
+    Attributes:
+        verdicts: One table for each chapter, experiment and configuration.
+        plausible: The counts over plausible worlds.
+        seed: Of the bootstrap.
+        notes: What was left out.
+    """
+
+    verdicts: tuple[Verdicts, ...]
+    plausible: tuple[Plausible, ...]
+    seed: int
+    notes: tuple[str, ...]
+
+    def as_json(self) -> dict[str, Any]:
+        """Everything, JSON-compatible."""
+        return {
+            "seed": self.seed,
+            "tables": [verdicts.as_json() for verdicts in self.verdicts],
+            "plausible": [plausible.as_json() for plausible in self.plausible],
+            "notes": list(self.notes),
+        }
+
+
+def report(
+    paths: Iterable[Path],
+    chapters: Sequence[Chapter],
+    *,
+    configuration: str | None = None,
+    at: int | None = None,
+    seed: int = 0,
+) -> Report:
+    """Decide the claims of chapters by the runs of a sweep.
+
+    Args:
+        paths: The journals.
+        chapters: The chapters.
+        configuration: Only runs of this configuration, and of those that differ from it by
+            settings; of all if None.
+        at: The evaluation to compare at, in movements; the last that all runs of a world have if
+            None.
+        seed: Of the bootstrap.
+
+    Raises:
+        JournalError: If a journal cannot be read.
+        SgimError: If no run is of these chapters, or runs of one world cannot be compared.
+        UnknownNameError: If no run has that configuration.
+    """
+    if seed < 0:
+        raise SgimError(f"seed is {seed}, expected 0 or more")
+    choosers = {learner for chapter in chapters for learner in chapter.choosers}
+    known = {chapter.experiment for chapter in chapters}
+    runs = read_runs(paths, choosers)
+    about = [run for run in runs if _main(run) in known]
+    others = Counter(str(run.experiment) for run in runs if _main(run) not in known)
+    if not about:
+        raise SgimError(
+            f"there are only runs of {', '.join(sorted(others))}, and claims about "
+            f"{', '.join(sorted(known))}; make some with sgim sweep"
+        )
+    kept = _configured(about, configuration)
+    tables: list[Verdicts] = []
+    for chapter in chapters:
+        worlds = worlds_of([run for run in kept if _main(run) == chapter.experiment], at)
+        tables += [decide(chapter, world, seed) for world in worlds]
+    notes = [
+        f"no claims are about {name}: left out {count} run{'s' * (count > 1)}"
+        for name, count in sorted(others.items())
+    ]
+    return Report(tuple(tables), tuple(count_worlds(tables)), seed, tuple(notes))
+
+
+def _main(run: MeasuredRun) -> str | None:
+    """The experiment of a run, or the one of which it is a variant."""
+    experiment = EXPERIMENTS.get(run.experiment or "")
+    return experiment.variant_of or experiment.name if experiment else run.experiment
+
+
+def _configured(runs: Sequence[MeasuredRun], configuration: str | None) -> Sequence[MeasuredRun]:
+    if configuration is None:
+        return runs
+    kept = [
+        run for run in runs if configuration in (run.configuration, base_of(str(run.configuration)))
+    ]
+    if not kept:
+        known = {str(run.configuration) for run in runs}
+        raise unknown("configuration of these runs", configuration, known)
+    return kept
