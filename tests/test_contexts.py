@@ -13,6 +13,7 @@ from sgim.events import Opened
 from sgim.learner import Learner
 from sgim.outcome.region_tree import Region, RegionTree
 from sgim.policy.model import NearestModel
+from sgim.strategy.situation import Situation
 from sgim.strategy.strategy import JointChoice
 from sgim.streams import Streams
 
@@ -150,7 +151,8 @@ def test_goals_are_chosen_from_interesting_regions_that_contain_the_present_cont
     for number in range(300):
         context = base(number)
         place = ARM.task.context_space.encode(context)[0]
-        _, goal = learner.strategy.choose(0, STREAMS("choice", number), (), context)
+        now = Situation(0, (), context)
+        goal = learner.strategy.choose(now, STREAMS("choice", number)).goal
         assert goal is not None
         around = [r for r in tree.leaves if r.low[2] <= place <= r.high[2]]
         interests = tree.interests()[[r.leaf for r in around], 0]

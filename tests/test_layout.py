@@ -22,7 +22,7 @@ SPINE = (
     {"outcome"},
     {"strategy"},
     {"ledger", "transitions", "answers", "learner"},
-    {"configurations", "algorithms"},
+    {"configurations", "parts", "algorithms"},
     {"runs"},
     {"experiments"},
     {"claims"},

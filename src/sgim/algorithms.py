@@ -6,11 +6,15 @@ name                            modes                 interest map    strategy
 random                          random                none            one mode, no goal
 random-goal-babbling            autonomous            uniform goals   joint choice
 sagg-riac                       autonomous            regions         joint choice
+observation                     observe one teacher   uniform goals   always ask
+imitation                       imitate one teacher   regions         always ask
+sgim-d                          imitate, autonomous   regions         fixed frequency
+sgim-im                         imitate, autonomous   regions         ratio of progress
 mimicry                         mimic one teacher     regions         joint choice
 emulation                       emulate one teacher   regions         joint choice
-sgim-acts                       all of these          regions         joint choice
-uniform-choice                  all of these          uniform goals   joint choice
-round-robin                     all of these          regions         every mode in turn
+sgim-acts                       the last two, auton.  regions         joint choice
+uniform-choice                  as sgim-acts          uniform goals   joint choice
+round-robin                     as sgim-acts          regions         every mode in turn
 demonstrations-first            mimic, autonomous     uniform goals   demonstrations first
 demonstrations-first-sagg-riac  mimic, autonomous     regions         demonstrations first
 ==============================  ====================  ==============  ====================
@@ -31,45 +35,31 @@ Every function takes the same arguments:
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping
 from typing import Any, Protocol
 
-from sgim.configurations import Configuration, configuration_of
+from sgim.configurations import configuration_of
 from sgim.errors import SgimError, unknown
 from sgim.learner import Learner
-from sgim.memory import Memory
-from sgim.outcome import ExpectedGain, InterestMap, RegionTree, UniformGoals
-from sgim.policy import (
-    Explorer,
-    LocalSearch,
-    Mimicry,
-    NearestModel,
-    NelderMeadSearch,
-    NoisyNearest,
-    RandomPolicies,
-)
+from sgim.outcome import UniformGoals
+from sgim.parts import Given, MakeMap, Parts, Teachers
+from sgim.policy import NoisyNearest, RandomPolicies
 from sgim.strategy import (
     Aimless,
-    DemonstrationsFirst,
+    FixedFrequency,
     JointChoice,
     Mode,
-    News,
+    ProgressRatio,
     RoundRobin,
-    Strategy,
 )
-from sgim.streams import Streams
 from sgim.task import Task
-
-Teachers = str | Sequence[str]
-MakeMap = Callable[[Mapping[str, float]], InterestMap]
-Given = str | Configuration
 
 
 def random_policies(
     task: Task, teachers: Teachers = (), *, configuration: Given = "modern", seed: int = 0
 ) -> Learner:
     """Random policies, whatever they produce."""
-    parts = _Parts("random", task, (), configuration, seed)
+    parts = Parts("random", task, (), configuration, seed)
     mode = Mode("random", RandomPolicies(task.policy_space), 1, pursues="nothing")
     return parts.learner(Aimless(mode))
 
@@ -83,7 +73,7 @@ def random_goal_babbling(
     interest: MakeMap | None = None,
 ) -> Learner:
     """A uniform goal, the nearest remembered policy plus noise, one movement a goal."""
-    parts = _Parts("random-goal-babbling", task, (), configuration, seed, interest)
+    parts = Parts("random-goal-babbling", task, (), configuration, seed, interest)
     mode = Mode("autonomous", NoisyNearest(parts.model), 1)
     uniform = UniformGoals(task.goal_spaces)
     made = uniform if interest is None else interest({mode.name: mode.cost})
@@ -99,9 +89,73 @@ def sagg_riac(
     interest: MakeMap | None = None,
 ) -> Learner:
     """Goal babbling driven by interest, without teachers (thesis section 3.1.4)."""
-    parts = _Parts("sagg-riac", task, (), configuration, seed, interest)
+    parts = Parts("sagg-riac", task, (), configuration, seed, interest)
     alone = parts.autonomous()
     return parts.joint_choice([alone], alone)
+
+
+def observation(
+    task: Task, teachers: Teachers, *, configuration: Given = "modern", seed: int = 0
+) -> Learner:
+    """Only watch one teacher's demonstrations, without a movement (section 3.3.1)."""
+    parts = Parts("observation", task, teachers, configuration, seed)
+    alone = Mode("autonomous", RandomPolicies(task.policy_space), 1)
+    watching = parts.imitate("observe", 1, uses="both")
+    return parts.learner(FixedFrequency(watching, alone, UniformGoals(task.goal_spaces), 1))
+
+
+def imitation(
+    task: Task,
+    teachers: Teachers,
+    *,
+    configuration: Given = "modern",
+    seed: int = 0,
+    interest: MakeMap | None = None,
+) -> Learner:
+    """Repeat what one teacher showed, with variations, until he shows the next (section 3.3.1)."""
+    parts = Parts("imitation", task, teachers, configuration, seed, interest)
+    every, alone = parts.config.demonstration_every, parts.autonomous()
+    imitating = parts.imitate("imitate", every)
+    return parts.learner(FixedFrequency(imitating, alone, parts.interest_in([alone]), every))
+
+
+def sgim_d(
+    task: Task,
+    teachers: Teachers,
+    *,
+    configuration: Given = "modern",
+    seed: int = 0,
+    interest: MakeMap | None = None,
+) -> Learner:
+    """Goal babbling, and a demonstration of one teacher every so often (algorithm 3.1.1)."""
+    parts = Parts("sgim-d", task, teachers, configuration, seed, interest)
+    alone = parts.autonomous()
+    imitating = parts.imitate("imitate", parts.config.mimicry_movements)
+    every = parts.config.demonstration_every
+    return parts.learner(FixedFrequency(imitating, alone, parts.interest_in([alone]), every))
+
+
+def sgim_im(
+    task: Task,
+    teachers: Teachers,
+    *,
+    configuration: Given = "modern",
+    seed: int = 0,
+    interest: MakeMap | None = None,
+) -> Learner:
+    """Goal babbling, or imitation of one teacher while that pays (algorithm 4.2.1)."""
+    parts = Parts("sgim-im", task, teachers, configuration, seed, interest)
+    alone, config = parts.autonomous(), parts.config
+    strategy = ProgressRatio(
+        parts.imitate("imitate", config.mimicry_movements),
+        alone,
+        parts.interest_in([alone]),
+        cost=config.request_cost,
+        window=config.request_window,
+        initiation=config.request_initiation,
+        least=config.request_least,
+    )
+    return parts.learner(strategy)
 
 
 def mimicry(
@@ -113,7 +167,7 @@ def mimicry(
     interest: MakeMap | None = None,
 ) -> Learner:
     """Always mimic one teacher (section 4.3.3.3)."""
-    parts = _Parts("mimicry", task, teachers, configuration, seed, interest)
+    parts = Parts("mimicry", task, teachers, configuration, seed, interest)
     return parts.joint_choice([parts.mimic(parts.only_teacher())], parts.autonomous())
 
 
@@ -126,7 +180,7 @@ def emulation(
     interest: MakeMap | None = None,
 ) -> Learner:
     """Always emulate one teacher (section 4.3.3.3)."""
-    parts = _Parts("emulation", task, teachers, configuration, seed, interest)
+    parts = Parts("emulation", task, teachers, configuration, seed, interest)
     alone = parts.autonomous()
     return parts.joint_choice([parts.emulate(parts.only_teacher(), alone)], alone)
 
@@ -140,7 +194,7 @@ def sgim_acts(
     interest: MakeMap | None = None,
 ) -> Learner:
     """Choose goal, mode and teacher together (algorithm 4.3.1)."""
-    parts = _Parts("sgim-acts", task, teachers, configuration, seed, interest)
+    parts = Parts("sgim-acts", task, teachers, configuration, seed, interest)
     return parts.joint_choice(*parts.all_modes())
 
 
@@ -148,7 +202,7 @@ def uniform_choice(
     task: Task, teachers: Teachers, *, configuration: Given = "modern", seed: int = 0
 ) -> Learner:
     """Goal, mode and teacher drawn uniformly: no interest at all."""
-    parts = _Parts("uniform-choice", task, teachers, configuration, seed)
+    parts = Parts("uniform-choice", task, teachers, configuration, seed)
     modes, alone = parts.all_modes()
     return parts.learner(JointChoice(modes, UniformGoals(task.goal_spaces), alone))
 
@@ -162,7 +216,7 @@ def round_robin(
     interest: MakeMap | None = None,
 ) -> Learner:
     """Every mode in turn, each for a goal that is interesting to pursue by it."""
-    parts = _Parts("round-robin", task, teachers, configuration, seed, interest)
+    parts = Parts("round-robin", task, teachers, configuration, seed, interest)
     modes, alone = parts.all_modes()
     return parts.learner(RoundRobin(modes, parts.interest_in(modes), alone))
 
@@ -171,7 +225,7 @@ def demonstrations_first(
     task: Task, teachers: Teachers, *, configuration: Given = "modern", seed: int = 0
 ) -> Learner:
     """All demonstrations first, each mimicked, then goal babbling with uniform goals."""
-    parts = _Parts("demonstrations-first", task, teachers, configuration, seed)
+    parts = Parts("demonstrations-first", task, teachers, configuration, seed)
     return parts.demonstrations_first(UniformGoals(task.goal_spaces))
 
 
@@ -184,7 +238,7 @@ def demonstrations_first_sagg_riac(
     interest: MakeMap | None = None,
 ) -> Learner:
     """All demonstrations first, each mimicked, then goal babbling driven by interest."""
-    parts = _Parts("demonstrations-first-sagg-riac", task, teachers, configuration, seed, interest)
+    parts = Parts("demonstrations-first-sagg-riac", task, teachers, configuration, seed, interest)
     return parts.demonstrations_first(parts.interest_in([parts.autonomous()]))
 
 
@@ -202,6 +256,10 @@ ALGORITHMS: dict[str, Algorithm] = {
     "random": random_policies,
     "random-goal-babbling": random_goal_babbling,
     "sagg-riac": sagg_riac,
+    "observation": observation,
+    "imitation": imitation,
+    "sgim-d": sgim_d,
+    "sgim-im": sgim_im,
     "mimicry": mimicry,
     "emulation": emulation,
     "sgim-acts": sgim_acts,
@@ -247,141 +305,3 @@ def from_recipe(task: Task, recipe: Mapping[str, Any]) -> Learner:
         configuration=configuration_of(recipe["configuration"]),
         seed=recipe["seed"],
     )
-
-
-class _Parts:
-    """The parts that every composition of one configuration is made of."""
-
-    def __init__(
-        self,
-        name: str,
-        task: Task,
-        teachers: Teachers,
-        configuration: Given,
-        seed: int,
-        interest: MakeMap | None = None,
-    ) -> None:
-        self.name = name
-        self.task = task
-        self.teachers = [teachers] if isinstance(teachers, str) else list(teachers)
-        self.config = configuration_of(configuration)
-        self.seed = seed
-        self.interest = interest
-        self.model = NearestModel(Memory(task))
-
-    def learner(self, strategy: Strategy) -> Learner:
-        recipe = {
-            "learner": self.name,
-            "teachers": self.teachers,
-            "configuration": self.config.describe(),
-            "seed": self.seed,
-        }
-        return Learner(
-            self.task,
-            strategy,
-            self.model,
-            seed=self.seed,
-            recipe=recipe if self.interest is None else None,
-        )
-
-    def only_teacher(self) -> str:
-        if len(self.teachers) != 1:
-            raise SgimError(
-                f"{self.name} has exactly one teacher, but {len(self.teachers)} are given: "
-                f"{', '.join(self.teachers) or 'none'}; name one, as in {self.name}:NAME or "
-                "teachers=NAME"
-            )
-        return self.teachers[0]
-
-    def autonomous(self) -> Mode:
-        return Mode("autonomous", self._search(), self.config.search_movements)
-
-    def _search(self) -> Explorer:
-        config = self.config
-        if config.search == "nelder-mead":
-            return NelderMeadSearch(self.model)
-        return LocalSearch(
-            self.model, budget=config.search_movements, reached_share=config.reached_share
-        )
-
-    def mimic(self, teacher: str) -> Mode:
-        config = self.config
-        explorer = Mimicry(
-            self.task.policy_space, config.mimicry_radius, exact_first=config.mimicry_exact_first
-        )
-        return Mode(
-            f"mimic {teacher}", explorer, config.mimicry_movements, config.social_cost, teacher
-        )
-
-    def emulate(self, teacher: str, alone: Mode) -> Mode:
-        return Mode(
-            f"emulate {teacher}",
-            alone.explorer,
-            alone.budget,
-            self.config.social_cost,
-            teacher,
-            "demonstrated",
-        )
-
-    def all_modes(self) -> tuple[list[Mode], Mode]:
-        """Autonomous exploration, mimicry and emulation of every teacher; and the first of them."""
-        if not self.teachers:
-            raise SgimError(
-                f"{self.name} chooses among teachers: name one or more, or use sagg-riac"
-            )
-        alone = self.autonomous()
-        modes = [alone, *(self.mimic(t) for t in self.teachers)]
-        return [*modes, *(self.emulate(t, alone) for t in self.teachers)], alone
-
-    def joint_choice(self, modes: Sequence[Mode], alone: Mode) -> Learner:
-        """A learner that chooses among modes by interest."""
-        news = News(self.task.outcome_spaces) if self.config.news and alone in modes else None
-        return self.learner(JointChoice(modes, self.interest_in(modes), alone, news))
-
-    def demonstrations_first(self, interest: InterestMap) -> Learner:
-        """A learner that asks every teacher in turn, then explores alone."""
-        if not self.teachers:
-            raise SgimError(f"{self.name} begins by asking: name one or more teachers")
-        return self.learner(
-            DemonstrationsFirst(
-                [self.mimic(t) for t in self.teachers],
-                self.config.first_demonstrations,
-                UniformGoals(self.task.goal_spaces),
-                self.autonomous(),
-                interest,
-            )
-        )
-
-    def interest_in(self, modes: Sequence[Mode]) -> InterestMap:
-        """The interest map over these modes."""
-        config, costs = self.config, {mode.name: mode.cost for mode in modes}
-        if self.interest is not None:
-            return self.interest(costs)
-        if config.interest == "gain":
-            return ExpectedGain(
-                self.task.goal_spaces,
-                costs,
-                self.model.lacks,
-                Streams(self.seed),
-                context_space=self.task.context_space,
-                capacity=config.region_capacity,
-                candidates=config.split_candidates,
-                window=config.progress_window,
-                prior=config.prior,
-                sharpness=config.sharpness,
-                uniform=config.goal_rules[0],
-                goals=config.goals,
-            )
-        return RegionTree(
-            self.task.goal_spaces,
-            costs,
-            config.measure(self.task),
-            Streams(self.seed),
-            context_space=self.task.context_space,
-            capacity=config.region_capacity,
-            candidates=config.split_candidates,
-            probabilities=config.goal_rules,
-            prior=config.prior,
-            staleness=config.staleness,
-            credit=config.credit,
-        )

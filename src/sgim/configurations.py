@@ -49,6 +49,13 @@ class Configuration:
         goals: How many goals are drawn to choose among; for ``"gain"``.
         sharpness: How much a mode is preferred to those that gain less; for ``"gain"``.
         first_demonstrations: Requests of ``demonstrations-first`` before it explores alone.
+        demonstration_every: Movements from one demonstration to the next, M of section 3.3.1;
+            for ``sgim-d`` and ``imitation``.
+        request_cost: What progress by imitation is divided by, cost of algorithm 4.2.2; for
+            ``sgim-im``, as are those that follow.
+        request_window: How many of the latest episodes of each mode count, ns.
+        request_initiation: Episodes of each mode until which both are chosen alike, nbMin.
+        request_least: Least probability of asking, and of not asking.
     """
 
     name: str
@@ -73,6 +80,11 @@ class Configuration:
     goals: int = 3
     sharpness: float = 3.0
     first_demonstrations: int = 100
+    demonstration_every: int = 30
+    request_cost: float = 100.0
+    request_window: int = 20
+    request_initiation: int = 10
+    request_least: float = 0.1
 
     def measure(self, task: Task) -> InterestMeasure:
         """How progress and interest are measured (eq. 4.2 and 4.3)."""

@@ -26,6 +26,7 @@ class Opened:
         goal: The goal chosen, or None for a mode without one.
         context: The context it was chosen in, or None.
         cause: Who chose: the strategy, a person's suggestion, or an unasked demonstration.
+        budget: Most movements in it, if fewer than its mode usually has.
     """
 
     episode: int
@@ -33,6 +34,7 @@ class Opened:
     goal: Goal | None
     context: Any
     cause: Cause
+    budget: int | None = None
 
 
 @frozen

@@ -196,7 +196,7 @@ class Learner(Transitions, Answers):
         if demonstration is not None:
             assert plan.request is not None
             usable = demonstrations.checked(self.task, demonstration, plan.request.teacher)
-            if running.mode.pursues == "chosen" and usable.policy is None:
+            if running.mode.needs_policy and usable.policy is None:
                 raise TeacherError(
                     f"mode {running.mode.name!r} needs a demonstration with a policy or a "
                     "trajectory; this one has only an outcome"

@@ -7,7 +7,7 @@ from typing import Any
 
 from sgim.errors import PlanError
 from sgim.policy.explorer import Episode
-from sgim.records import Goal, Plan, Request
+from sgim.records import Goal, Outcome, Plan, Request
 from sgim.strategy.modes import Mode
 
 OUT, TOLD, ANSWERED, FAILED, REFUSED, EXPIRED, LOST = range(1, 8)
@@ -29,19 +29,39 @@ class Running:
         chosen: The goal chosen for it, or None.
         context: The context it was chosen in, or None.
         episode: Its place in the explorer's world.
+        limit: Most movements in it, if fewer than its mode usually has.
         live: Whether its explorer has been prepared; false where decisions are only folded.
     """
 
-    __slots__ = ("chosen", "context", "episode", "live", "mode")
+    __slots__ = ("chosen", "context", "episode", "limit", "live", "mode")
 
     def __init__(
-        self, mode: Mode, chosen: Goal | None, context: Any, episode: Episode, live: bool
+        self,
+        mode: Mode,
+        chosen: Goal | None,
+        context: Any,
+        episode: Episode,
+        live: bool,
+        limit: int | None = None,
     ) -> None:
         self.mode = mode
         self.chosen = chosen
         self.context = context
         self.episode = episode
         self.live = live
+        self.limit = limit
+
+    @property
+    def budget(self) -> int:
+        """Most movements in it."""
+        usual = self.mode.budget
+        return usual if self.limit is None else min(self.limit, usual)
+
+    @property
+    def watched(self) -> Outcome | None:
+        """What was shown, if that is to be remembered without a movement."""
+        shown = self.episode.demonstration
+        return shown.outcome if shown is not None and self.mode.uses == "both" else None
 
     @property
     def must_ask(self) -> bool:
@@ -97,6 +117,7 @@ class Ledger:
             request,
             episode.context,
             self.owner,
+            running.watched,
         )
         self.next_plan = number + 1
         self._status.append(OUT)

@@ -56,6 +56,8 @@ class Plan:
         policy: The policy to try, a point of the task's policy space, or None.
         request: The request to put to a teacher, or None.
         context: The context it was made for, or None.
+        watched: What the policy produced for a teacher, where the learner only watches: to be
+            told as it is, without a movement. None for policies to try.
     """
 
     id: int
@@ -66,6 +68,7 @@ class Plan:
     request: Request | None
     context: Any
     owner: object = field(default=None, repr=False)
+    watched: Outcome | None = None
 
 
 @frozen

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from sgim import ledger
-from sgim.errors import UnwrittenError, unknown
+from sgim.errors import UnwrittenError
 from sgim.events import (
     Available,
     Closed,
@@ -31,8 +31,8 @@ from sgim.policy.explorer import Episode
 from sgim.policy.model import CompetenceModel
 from sgim.records import Demonstration, Goal, Plan, Report, Trial
 from sgim.spaces import Box
-from sgim.strategy.modes import Mode
-from sgim.strategy.strategy import Strategy
+from sgim.strategy.situation import Situation
+from sgim.strategy.strategy import Strategy, mode_for, mode_named
 from sgim.streams import Streams
 from sgim.task import Task
 
@@ -75,33 +75,18 @@ class Transitions:
         """Decide the next episode's mode and goal, without opening it."""
         number = self.ledger.next_episode
         self._rng = number, self.streams("learner", number)
-        mode, chosen = self.strategy.choose(number, self._rng[1], self._absent, context)
+        now = Situation(number, self._absent, context, self.ledger.running.values())
+        mode, chosen, budget = self.strategy.choose(now, self._rng[1])
         if chosen is not None:
             chosen = self.task.check_goal(chosen.kind, chosen.point)
         if self._given:
             shown = self._shown(self._given[0], chosen)
-            mode = self._mode_for(self._given[0])
+            mode = mode_for(self.strategy, self._given[0])
             return Opened(number, mode.name, shown or chosen, context, "demonstration")
         if self._suggestions:
             mode = self.strategy.alone if mode.pursues == "nothing" else mode
-            return Opened(number, mode.name, self._suggestions[0], context, "suggestion")
-        return Opened(number, mode.name, chosen, context, "strategy")
-
-    def _mode_for(self, demonstration: Demonstration) -> Mode:
-        """How to learn from an unasked demonstration: as from its teacher, mimicry first."""
-        modes = [m for m in self.strategy.modes.values() if m.teacher == demonstration.teacher]
-        usable = [m for m in modes if m.pursues == "chosen" and demonstration.policy is not None]
-        usable += [m for m in modes if m.pursues == "demonstrated"]
-        return usable[0] if usable else self.strategy.alone
-
-    def mode(self, name: str) -> Mode:
-        """The mode of this name; `UnknownNameError` if there is none."""
-        if name == self.strategy.alone.name:
-            return self.strategy.modes.get(name, self.strategy.alone)
-        mode = self.strategy.modes.get(name)
-        if mode is None:
-            raise unknown("mode", name, [*self.strategy.modes, self.strategy.alone.name])
-        return mode
+            return Opened(number, mode.name, self._suggestions[0], context, "suggestion", budget)
+        return Opened(number, mode.name, chosen, context, "strategy", budget)
 
     def open(self, event: Opened, *, live: bool = True) -> Running:
         """Open the episode that was decided; ``live`` if its explorer is to be used."""
@@ -112,7 +97,8 @@ class Transitions:
         if decided != number:
             rng = self.streams("learner", number)
         episode = Episode(number, event.goal, event.context, rng)
-        running = Running(self.mode(event.mode), event.goal, event.context, episode, live)
+        mode = mode_named(self.strategy, event.mode)
+        running = Running(mode, event.goal, event.context, episode, live, event.budget)
         self.ledger.running[number] = running
         if event.cause == "suggestion":
             self._suggestions.popleft()
@@ -142,11 +128,22 @@ class Transitions:
             episode.goal = None
         elif mode.pursues == "demonstrated" and episode.demonstration is not None:
             episode.goal = self._shown(episode.demonstration, running.chosen) or episode.goal
+        if episode.demonstration is not None and running.watched is not None:
+            shown_in = episode.demonstration.context
+            episode.context = episode.context if shown_in is None else shown_in
         if running.live:
+            if episode.goal is None and mode.pursues != "nothing":
+                running.chosen = episode.goal = self._goal_alone(running)
             if episode.goal is not None:
                 competence = float(self.model.competence(episode.goal, episode.context))
                 episode.before = episode.best = competence
             mode.explorer.begin(episode)
+
+    def _goal_alone(self, running: Running) -> Goal | None:
+        """A goal for an episode that was to get it from a teacher, and did not."""
+        teachers = {mode.teacher for mode in self.strategy.modes.values() if mode.teacher}
+        now = Situation(running.episode.id, teachers, running.episode.context)
+        return self.strategy.choose(now, running.episode.rng).goal
 
     def _shown(self, demonstration: Demonstration, chosen: Goal | None) -> Goal | None:
         """The demonstrated outcome as a goal, of the kind chosen if it has that; else None."""
@@ -272,7 +269,7 @@ class Transitions:
         if not running.live:
             ended = not self.folding
         else:
-            ended = episode.attempts >= running.mode.budget or (
+            ended = episode.attempts >= running.budget or (
                 episode.movements > 0 and running.mode.explorer.finished(episode)
             )
         if ended:

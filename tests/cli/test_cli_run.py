@@ -226,3 +226,16 @@ def test_a_warm_start_from_nothing_leaves_nothing_behind(sgim, tmp_path) -> None
     assert said.code == 1
     assert "there is no journal no.sgim" in said.err
     assert not list(tmp_path.rglob("*.sgim"))
+
+
+def test_every_is_short_for_a_setting_of_the_configuration(sgim, tmp_path) -> None:
+    words = ("run", "hockey", "--learner", "sgim-d", "--movements", "40")
+    assert sgim(*words, "--every", "20").code == 0
+    (path,) = (tmp_path / "runs").iterdir()
+    assert path.name == "hockey-sgim-d-modern,demonstration_every=20-0.sgim"
+    with sqlite3.connect(path) as db:
+        (asked,) = db.execute("SELECT count(*) FROM events WHERE event = 'answered'").fetchone()
+    db.close()
+    assert asked == 2
+    said = sgim(*words, "--configuration", "modern,demonstration_every=20")
+    assert "is finished: 40 movements" in said.out

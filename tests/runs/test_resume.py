@@ -31,12 +31,17 @@ Rows = list[tuple[object, ...]]
 
 
 def throwing_run(
-    path: Path, *, batch: int = 1, configuration: str = "modern", seed: int = 3, adopt: bool = False
+    path: Path,
+    name: str = "sgim-acts",
+    *,
+    batch: int = 1,
+    configuration: str = "modern",
+    seed: int = 3,
+    adopt: bool = False,
 ) -> Run:
     world = ThrowingArm()
-    learner = algorithms.make(
-        "sgim-acts", world.task, ["T1", "T2", "T3"], configuration=configuration, seed=seed
-    )
+    teachers = ["T1", "T2", "T3"] if name == "sgim-acts" else ["T1"]
+    learner = algorithms.make(name, world.task, teachers, configuration=configuration, seed=seed)
     return Run(
         learner,
         world,
@@ -86,6 +91,23 @@ def test_a_run_cut_off_after_any_event_ends_as_one_that_never_was(
         with throwing_run(part, batch=batch, configuration=configuration) as run:
             run.go(240)
         assert rows(part) == expected, f"cut after event {place}"
+
+
+@pytest.mark.parametrize("batch", [1, 16])
+@pytest.mark.parametrize("configuration", ["modern", "thesis,demonstration_every=13"])
+@pytest.mark.parametrize("name", sorted({*algorithms.ALGORITHMS} - {"sgim-acts"}))
+def test_every_learner_goes_on_as_if_it_had_not_been_cut_off(
+    tmp_path: Path, name: str, configuration: str, batch: int
+) -> None:
+    whole = tmp_path / "whole.sgim"
+    with throwing_run(whole, name, batch=batch, configuration=configuration) as run:
+        run.go(120)
+    for place in random.Random(0).sample(whole_outcomes(whole), 6):
+        part = tmp_path / f"{place}.sgim"
+        cut(whole, part, place)
+        with throwing_run(part, name, batch=batch, configuration=configuration) as run:
+            run.go(120)
+        assert rows(part) == rows(whole), f"cut after event {place}"
 
 
 def test_a_noisy_world_with_contexts_resumes_exactly(tmp_path: Path) -> None:

@@ -7,13 +7,14 @@ from tests.helpers import report
 from tests.strategy.test_strategy import ALONE, MODES, Scripted
 
 from sgim.strategy.schedules import DemonstrationsFirst, RoundRobin
+from sgim.strategy.situation import Situation
 
 RNG = np.random.default_rng(0)
 ASKING = [m for m in MODES if m.teacher]
 
 
 def choices(strategy: Any, episodes: range, absent: tuple[str, ...] = ()) -> list[str]:
-    return [strategy.choose(i, RNG, absent, None)[0].name for i in episodes]
+    return [strategy.choose(Situation(i, absent), RNG).mode.name for i in episodes]
 
 
 def test_every_mode_has_its_turn_with_a_goal_for_it() -> None:

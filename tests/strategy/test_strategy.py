@@ -13,6 +13,7 @@ from sgim.records import Demonstration, Goal
 from sgim.spaces import Box
 from sgim.strategy.modes import Mode
 from sgim.strategy.news import News
+from sgim.strategy.situation import Situation
 from sgim.strategy.strategy import Aimless, JointChoice
 
 PLACE = Box(0, 10)
@@ -52,7 +53,7 @@ def test_the_interest_map_chooses_mode_and_goal_together() -> None:
     interest = Scripted("mimic bob")
     strategy = JointChoice(MODES, interest, ALONE)
     context = np.array([0.5])
-    chosen, goal = strategy.choose(0, np.random.default_rng(3), set(), context)
+    chosen, goal, _ = strategy.choose(Situation(0, (), context), np.random.default_rng(3))
     assert chosen is MODES[3]
     assert goal is not None
     assert goal.point[0] == np.random.default_rng(3).random()
@@ -63,14 +64,14 @@ def test_the_interest_map_chooses_mode_and_goal_together() -> None:
 def test_modes_of_absent_teachers_are_not_offered() -> None:
     interest = Scripted("mimic ann")
     strategy = JointChoice(MODES, interest, ALONE)
-    chosen, _ = strategy.choose(0, RNG, {"ann"}, None)
+    chosen = strategy.choose(Situation(0, {"ann"}), RNG).mode
     assert interest.offered == [["alone", "mimic bob"]]
     assert chosen is ALONE
 
 
 def test_while_every_teacher_is_absent_the_goal_is_pursued_alone() -> None:
     strategy = JointChoice(MODES[1:3], Scripted("mimic ann"), ALONE)
-    chosen, goal = strategy.choose(0, RNG, ["ann"], None)
+    chosen, goal, _ = strategy.choose(Situation(0, ["ann"]), RNG)
     assert chosen is ALONE
     assert goal is not None
 
@@ -85,7 +86,7 @@ def test_reports_go_to_the_interest_map() -> None:
 def test_with_an_interest_map_that_knows_nothing_modes_are_chosen_alike() -> None:
     strategy = JointChoice(MODES, UniformGoals({"place": PLACE}), ALONE)
     rng = np.random.default_rng(0)
-    counted = Counter(strategy.choose(0, rng, (), None)[0].name for _ in range(2000))
+    counted = Counter(strategy.choose(Situation(0), rng).mode.name for _ in range(2000))
     assert {m: n / 2000 for m, n in counted.items()} == pytest.approx(
         {m.name: 0.25 for m in MODES}, abs=0.04
     )
@@ -102,7 +103,7 @@ def test_an_aimless_strategy_has_one_mode_and_no_goal() -> None:
     random = mode("random", pursues="nothing")
     strategy = Aimless(random)
     strategy.update(report([5.0]))
-    assert strategy.choose(0, RNG, {"ann"}, None) == (random, None)
+    assert strategy.choose(Situation(0, {"ann"}), RNG) == (random, None, None)
     assert strategy.modes == {"random": random}
     assert strategy.alone is random
 
@@ -143,7 +144,7 @@ def test_a_teacher_who_only_repeats_himself_is_asked_ever_less() -> None:
     rng = np.random.default_rng(0)
     asked = []
     for number in range(400):
-        chosen, goal = strategy.choose(0, rng, (), None)
+        chosen, goal, _ = strategy.choose(Situation(0), rng)
         asked.append(chosen.teacher is not None)
         assert goal is not None
         if chosen.teacher is not None:

@@ -97,3 +97,10 @@ def example_goal(spaces: Mapping[str, Space]) -> str:
 def shell(*words: str | Path) -> str:
     """A command as it can be pasted into a shell."""
     return shlex.join(map(str, words))
+
+
+def demonstrations_every(configuration: str, movements: int | None) -> str:
+    """A configuration, with a demonstration every so many movements if that is said."""
+    if movements is None:
+        return configuration
+    return f"{configuration},demonstration_every={movements}"

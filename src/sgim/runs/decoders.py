@@ -65,9 +65,16 @@ class Decoders:
         return {} if kind is None else {kind: self._outcome_kinds[kind](point)}
 
     def _opened(self, row: Stored) -> Opened:
-        _, _, episode, _, mode, kind, point, _, context, _, cause = row
-        goal = self._goal(kind, point)
-        return Opened(episode, mode, goal, self._context(context), cast(Cause, cause))
+        _, _, episode, _, mode, kind, point, _, context, _, detail = row
+        cause, _, budget = detail.partition(", budget ")
+        return Opened(
+            episode,
+            mode,
+            self._goal(kind, point),
+            self._context(context),
+            cast(Cause, cause),
+            int(budget) if budget else None,
+        )
 
     def _planned(self, row: Stored) -> RecordedPlan:
         _, _, episode, plan, teacher, _, _, policy, context, _, request = row

@@ -59,9 +59,11 @@ class Encoders:
     def _opened(self, event: Opened) -> list[Row]:
         kind, point = self._goal(event.goal)
         context = self._context(event.context)
-        cause = event.cause
+        detail: str = event.cause
+        if event.budget is not None:
+            detail = f"{detail}, budget {event.budget}"
         return [
-            ("opened", event.episode, None, event.mode, kind, point, None, context, None, cause)
+            ("opened", event.episode, None, event.mode, kind, point, None, context, None, detail)
         ]
 
     def _planned(self, event: Planned) -> list[Row]:

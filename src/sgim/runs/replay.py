@@ -182,7 +182,7 @@ class _Fold:
         if live:
             decided = self.learner.decide_opening(event.context)
             mine, recorded = (
-                (e.mode, e.cause, *self._goal_bytes(e.goal)) for e in (decided, event)
+                (e.mode, e.cause, e.budget, *self._goal_bytes(e.goal)) for e in (decided, event)
             )
             if mine != recorded:
                 self._differ(f"episode {event.episode}", _words(decided), _words(event))
@@ -245,7 +245,8 @@ class _Fold:
 
 def _words(event: Opened) -> str:
     goal = "no goal" if event.goal is None else f"{event.goal.kind} {event.goal.point!r}"
-    return f"{event.mode} for {goal} ({event.cause})"
+    most = "" if event.budget is None else f", at most {event.budget} movements"
+    return f"{event.mode} for {goal}{most} ({event.cause})"
 
 
 def iterate_trials(events: Iterable[RecordedEvent]) -> Iterator[Trial]:

@@ -69,7 +69,9 @@ class World:
                 self.observed(event.outcome)
 
     def execute(self, plan: Plan) -> Executed:
-        """Execute one plan's policy."""
+        """Execute one plan's policy; what was only watched is not executed."""
+        if plan.watched is not None:
+            return plan.watched
         environment = self.environment
         rng = None if environment.deterministic else self.streams("environment", plan.id)
         try:
@@ -84,7 +86,8 @@ class World:
         knows which movements were made, and all of them have failed.
         """
         environment = self.environment
-        if len(plans) == 1 or not hasattr(environment, "execute_batch"):
+        watching = any(plan.watched is not None for plan in plans)
+        if len(plans) == 1 or watching or not hasattr(environment, "execute_batch"):
             return [self.execute(plan) for plan in plans]
         rngs = None
         if not environment.deterministic:

@@ -20,6 +20,9 @@ class Mode:
         teacher: Whom it asks for a demonstration; None for modes without a teacher.
         pursues: Whether it aims at the goal ``chosen``, at the outcome ``demonstrated``, or at
             ``nothing`` (random policies).
+        uses: What it needs of a demonstration: its ``outcome`` only; the ``policy``, to try it;
+            or ``both``, to remember them as if tried, without a movement. None stands for the
+            outcome if that is pursued, else for the policy.
     """
 
     name: str
@@ -28,6 +31,7 @@ class Mode:
     cost: float = 1.0
     teacher: str | None = None
     pursues: Literal["chosen", "demonstrated", "nothing"] = "chosen"
+    uses: Literal["outcome", "policy", "both"] | None = None
 
     def __post_init__(self) -> None:
         if self.budget < 1:
@@ -36,3 +40,10 @@ class Mode:
             raise ValueError(f"mode {self.name!r} has cost {self.cost}, expected > 0")
         if self.pursues == "demonstrated" and self.teacher is None:
             raise ValueError(f"mode {self.name!r} pursues demonstrations but has no teacher")
+
+    @property
+    def needs_policy(self) -> bool:
+        """Whether it can do nothing with a demonstration that has only an outcome."""
+        return (self.uses or ("outcome" if self.pursues == "demonstrated" else "policy")) != (
+            "outcome"
+        )

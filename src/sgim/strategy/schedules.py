@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
-from typing import Any
+from collections.abc import Sequence
 
 import numpy as np
 
 from sgim.outcome.interest import EpisodeReport, InterestMap
-from sgim.records import Goal
 from sgim.strategy.modes import Mode
+from sgim.strategy.situation import Choice, Situation
 from sgim.strategy.strategy import by_name
 
 
@@ -28,13 +27,11 @@ class RoundRobin:
         self.alone = alone
         self._order = tuple(modes)
 
-    def choose(
-        self, episode: int, rng: np.random.Generator, absent: Collection[str], context: Any
-    ) -> tuple[Mode, Goal | None]:
+    def choose(self, now: Situation, rng: np.random.Generator) -> Choice:
         """The next mode, and a goal that is interesting to pursue by it."""
-        mode = self._order[episode % len(self._order)]
-        goal, _ = self.interest.choose(rng, [mode.name], context)
-        return self.alone if mode.teacher in absent else mode, goal
+        mode = self._order[now.episode % len(self._order)]
+        goal, _ = self.interest.choose(rng, [mode.name], now.context)
+        return Choice(self.alone if mode.teacher in now.absent else mode, goal)
 
     def update(self, report: EpisodeReport) -> None:
         """Pass the report to the interest map."""
@@ -69,16 +66,14 @@ class DemonstrationsFirst:
         self.interest = interest
         self._asking = tuple(asking)
 
-    def choose(
-        self, episode: int, rng: np.random.Generator, absent: Collection[str], context: Any
-    ) -> tuple[Mode, Goal | None]:
+    def choose(self, now: Situation, rng: np.random.Generator) -> Choice:
         """Ask the next teacher, or explore alone when all demonstrations have been given."""
-        if episode < self.requests:
-            mode = self._asking[episode % len(self._asking)]
-            goal, _ = self.first.choose(rng, [mode.name], context)
-            return self.alone if mode.teacher in absent else mode, goal
-        goal, _ = self.interest.choose(rng, [self.alone.name], context)
-        return self.alone, goal
+        if now.episode < self.requests:
+            mode = self._asking[now.episode % len(self._asking)]
+            goal, _ = self.first.choose(rng, [mode.name], now.context)
+            return Choice(self.alone if mode.teacher in now.absent else mode, goal)
+        goal, _ = self.interest.choose(rng, [self.alone.name], now.context)
+        return Choice(self.alone, goal)
 
     def update(self, report: EpisodeReport) -> None:
         """Pass what was explored alone to the interest map."""

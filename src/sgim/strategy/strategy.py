@@ -1,21 +1,23 @@
 """The upper level, meta-learning: which sampling mode, which teacher, for which goal.
 
 Choosing mode and goal together (SGIM-ACTS) and always the same mode (SAGG-RIAC, random
-policies, one teacher) are here; a fixed frequency of demonstrations (SGIM-D) and the ratio of
-progress (SGIM-IM) have the same interface.
+policies, one teacher) are here; fixed schedules, and imitation now and then (SGIM-D, SGIM-IM),
+have files of their own.
 """
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
-from typing import Any, Protocol
+from collections.abc import Sequence
+from typing import Protocol
 
 import numpy as np
 
+from sgim.errors import unknown
 from sgim.outcome.interest import EpisodeReport, InterestMap
-from sgim.records import Goal
+from sgim.records import Demonstration
 from sgim.strategy.modes import Mode
 from sgim.strategy.news import News
+from sgim.strategy.situation import Choice, Situation
 
 
 class Strategy(Protocol):
@@ -29,24 +31,24 @@ class Strategy(Protocol):
     modes: dict[str, Mode]
     alone: Mode
 
-    def choose(
-        self, episode: int, rng: np.random.Generator, absent: Collection[str], context: Any
-    ) -> tuple[Mode, Goal | None]:
+    def choose(self, now: Situation, rng: np.random.Generator) -> Choice:
         """Choose how an episode learns.
 
         Args:
-            episode: Its number.
+            now: Its number, who is absent, the context, and what is under way.
             rng: Its own generator.
-            absent: Teachers that cannot be asked now.
-            context: The present context.
 
         Returns:
-            A mode whose teacher is not absent, and a goal for the context, if the mode has one.
+            A mode whose teacher is not absent, a goal for the context, if the mode has one, and
+            a limit to its movements, if they are to be fewer than usual.
         """
         ...
 
     def update(self, report: EpisodeReport) -> None:
-        """Learn from an episode."""
+        """Learn from an episode.
+
+        What a strategy keeps may change here only, so that it is a fold over the record.
+        """
         ...
 
 
@@ -56,6 +58,24 @@ def by_name(modes: Sequence[Mode]) -> dict[str, Mode]:
     if len(named) < len(modes) or not modes:
         raise ValueError(f"modes need different names, got {[m.name for m in modes]}")
     return named
+
+
+def mode_named(strategy: Strategy, name: str) -> Mode:
+    """The strategy's mode of this name; `UnknownNameError` if there is none."""
+    if name == strategy.alone.name:
+        return strategy.modes.get(name, strategy.alone)
+    mode = strategy.modes.get(name)
+    if mode is None:
+        raise unknown("mode", name, [*strategy.modes, strategy.alone.name])
+    return mode
+
+
+def mode_for(strategy: Strategy, demonstration: Demonstration) -> Mode:
+    """How to learn from an unasked demonstration: as from its teacher, mimicry first."""
+    modes = [m for m in strategy.modes.values() if m.teacher == demonstration.teacher]
+    usable = [m for m in modes if m.needs_policy and demonstration.policy is not None]
+    usable += [m for m in modes if not m.needs_policy]
+    return usable[0] if usable else strategy.alone
 
 
 class JointChoice:
@@ -85,16 +105,14 @@ class JointChoice:
         self.alone = alone
         self.news = news
 
-    def choose(
-        self, episode: int, rng: np.random.Generator, absent: Collection[str], context: Any
-    ) -> tuple[Mode, Goal | None]:
+    def choose(self, now: Situation, rng: np.random.Generator) -> Choice:
         """Let the interest map choose among the modes that are possible now."""
-        present = [m.name for m in self.modes.values() if m.teacher not in absent]
-        goal, name = self.interest.choose(rng, present or list(self.modes), context)
+        present = [m.name for m in self.modes.values() if m.teacher not in now.absent]
+        goal, name = self.interest.choose(rng, present or list(self.modes), now.context)
         mode = self.modes[name] if present else self.alone
         if self.news is not None and mode.teacher is not None:
             mode = mode if rng.random() < self.news.expected(name) else self.alone
-        return mode, goal
+        return Choice(mode, goal)
 
     def update(self, report: EpisodeReport) -> None:
         """Pass the report to the interest map; take in what was demonstrated."""
@@ -114,11 +132,9 @@ class Aimless:
         self.modes = {mode.name: mode}
         self.alone = mode
 
-    def choose(
-        self, episode: int, rng: np.random.Generator, absent: Collection[str], context: Any
-    ) -> tuple[Mode, Goal | None]:
+    def choose(self, now: Situation, rng: np.random.Generator) -> Choice:
         """The mode, and no goal."""
-        return self.alone, None
+        return Choice(self.alone, None)
 
     def update(self, report: EpisodeReport) -> None:
         """Nothing is learned."""

@@ -8,7 +8,7 @@ from typing import Annotated
 from tyro.conf import Positional, arg
 
 from sgim.cli.going import go, say_finished
-from sgim.cli.text import shell
+from sgim.cli.text import demonstrations_every, shell
 from sgim.errors import JournalError, SgimError
 from sgim.experiments import experiment as find_experiment
 from sgim.experiments.experiment import evaluation_interval
@@ -23,6 +23,10 @@ def command(
     ] = None,
     teacher: Annotated[str | None, arg(metavar="NAME", help_behavior_hint="(default: all)")] = None,
     configuration: Annotated[str, arg(metavar="NAME")] = "modern",
+    every: Annotated[
+        int | None,
+        arg(metavar="INT", help_behavior_hint="(default: the configuration's)"),
+    ] = None,
     seed: int = 0,
     movements: Annotated[
         int | None, arg(metavar="INT", help_behavior_hint="(default: the experiment's)")
@@ -55,6 +59,7 @@ def command(
         learner: Name of the learner; sgim list has them.
         teacher: The only teacher to ask; mimicry:T1 as learner says the same.
         configuration: The learner's constants: modern or thesis.
+        every: Movements from one demonstration to the next, for sgim-d and imitation.
         seed: Of all random numbers; the same seed gives the same run.
         movements: How many movements to make.
         journal: Where to write the journal.
@@ -63,6 +68,7 @@ def command(
         warm_start: Journal of another run, whose trials are observed first.
     """
     world = find_experiment(experiment)
+    configuration = demonstrations_every(configuration, every)
     name = learner or world.default_learner
     if teacher is not None:
         name = f"{name.partition(':')[0]}:{teacher}"

@@ -8,7 +8,7 @@ from typing import Annotated
 
 from tyro.conf import Positional, arg
 
-from sgim.cli.text import shell
+from sgim.cli.text import demonstrations_every, shell
 from sgim.errors import SgimError
 from sgim.experiments import experiment as find_experiment
 from sgim.experiments.experiment import evaluation_interval
@@ -22,6 +22,10 @@ def command(
     learners: Annotated[str, arg(metavar="A,B,…")],
     seeds: Annotated[str, arg(metavar="0-19")],
     configuration: Annotated[str, arg(metavar="NAME")] = "modern",
+    every: Annotated[
+        int | None,
+        arg(metavar="INT", help_behavior_hint="(default: the configuration's)"),
+    ] = None,
     movements: Annotated[
         int | None, arg(metavar="INT", help_behavior_hint="(default: the experiment's)")
     ] = None,
@@ -48,6 +52,7 @@ def command(
         learners: Names of learners, with commas between.
         seeds: Seeds, such as 0-19 or 0,3,5-7.
         configuration: The learners' constants: modern or thesis.
+        every: Movements from one demonstration to the next, for sgim-d and imitation.
         movements: How many movements each run makes.
         batch: Movements of a run that are carried out side by side.
         evaluate_every: Movements between evaluations.
@@ -55,6 +60,7 @@ def command(
         out: Directory of the journals.
     """
     world = find_experiment(experiment)
+    configuration = demonstrations_every(configuration, every)
     names = [name.strip() for name in learners.split(",") if name.strip()]
     numbers = parse_seeds(seeds)
     for name in names:
