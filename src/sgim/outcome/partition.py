@@ -131,7 +131,9 @@ class Partition:
         records: Sequence[Attempt],
         interest: Callable[[Sequence[Attempt]], float],
     ) -> tuple[int, float] | None:
-        """Where n₁ · n₂ · |interest₁ − interest₂| is largest among random candidates.
+        """Where the sizes of both parts times the gap of their interests is largest.
+
+        Candidates are random, as in section 3.1.4.
 
         Returns:
             The axis and the cut; None if no candidate parts the records.
