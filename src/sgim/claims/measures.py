@@ -54,10 +54,12 @@ class Error:
     Attributes:
         learner: Whose.
         kind: Kind of goal, or ``total``, the mean of the kinds.
+        at: After how many movements; None for the evaluation that the world is compared at.
     """
 
     learner: str
     kind: str = "total"
+    at: int | None = None
 
     unit: ClassVar[Unit] = "error"
     of_choices: ClassVar[bool] = False
@@ -65,20 +67,22 @@ class Error:
     @property
     def what(self) -> str:
         """In words."""
-        return f"{self.kind} error"
+        at = "" if self.at is None else f" at {self.at} movements"
+        return f"{self.kind} error{at}"
 
     def of(self, run: MeasuredRun, movements: int) -> float:
-        """At the evaluation after so many movements.
+        """At the evaluation after so many movements, or at its own.
 
         Raises:
             SgimError: If the run has no such evaluation or kind of error.
         """
+        movements = movements if self.at is None else self.at
         for evaluation in run.evaluations:
             if evaluation.movements == movements and self.kind in evaluation.errors:
                 return float(evaluation.errors[self.kind])
         raise SgimError(
-            f"{run.path} has no {self.what} at {movements} movements, which a claim is about; "
-            "run it again with the experiment's own benchmark"
+            f"{run.path} has no {self.kind} error at {movements} movements, which a claim is "
+            "about; run it again with the experiment's own benchmark"
         )
 
 
@@ -130,12 +134,14 @@ class Share:
         counted: Which are counted.
         among: Among which.
         quarter: In which quarter of the movements, from 1 to 4; None for all of them.
+        half: In which half of them, 1 or 2, instead.
     """
 
     learner: str
     counted: Episodes
     among: Episodes = Episodes()
     quarter: int | None = None
+    half: int | None = None
 
     unit: ClassVar[Unit] = "share"
     of_choices: ClassVar[bool] = True
@@ -144,14 +150,19 @@ class Share:
     def what(self) -> str:
         """In words."""
         among = "" if self.among == Episodes() else f" among {self.among}"
-        quarter = "" if self.quarter is None else f" in quarter {self.quarter}"
-        return f"share of {self.counted}{among}{quarter}"
+        when = "" if self.quarter is None else f" in quarter {self.quarter}"
+        when = when if self.half is None else f" in half {self.half}"
+        return f"share of {self.counted}{among}{when}"
 
     def of(self, run: MeasuredRun, movements: int) -> float:
         """Among the episodes begun in so many movements; NaN if there was none of those."""
         assert isinstance(run, RecordedRun)
-        first = 0.0 if self.quarter is None else movements * (self.quarter - 1) / QUARTERS
-        end = movements if self.quarter is None else movements * self.quarter / QUARTERS
+        part, parts = 1, 1
+        if self.quarter is not None:
+            part, parts = self.quarter, QUARTERS
+        elif self.half is not None:
+            part, parts = self.half, 2
+        first, end = movements * (part - 1) / parts, movements * part / parts
         begun = run.openings.movements
         rows = (begun >= first) & (begun < end) & self.among.among(run.openings)
         counted = self.counted.among(run.openings) & rows
