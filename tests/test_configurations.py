@@ -42,6 +42,9 @@ def test_several_settings_may_differ() -> None:
         ("modern,news=1", "expected news= and a value such as true"),
         ("modern,goals=1.5", "expected goals= and a value such as 3"),
         ("thesis,credit=both", "expected credit= and chosen or pursued"),
+        ("modern,goals=0", "goals is 0, expected 1 or more"),
+        ("modern,social_cost=0", "social_cost is 0.0, expected a positive number"),
+        ("modern,social_cost=NaN", "social_cost is nan, expected a positive number"),
     ],
 )
 def test_a_setting_of_another_form_is_refused(text: str, message: str) -> None:

@@ -8,7 +8,7 @@ from dataclasses import FrozenInstanceError, replace
 import pytest
 
 from sgim.frozen import frozen
-from sgim.records import Goal, Plan
+from sgim.records import Demonstration, Goal, Plan
 
 
 @frozen
@@ -55,3 +55,10 @@ def test_records_copy_pickle_match_and_are_replaced() -> None:
 def test_a_field_left_out_of_the_representation_stays_out() -> None:
     plan = Plan(0, 0, "alone", None, [1.0], None, None, owner=object())
     assert "owner" not in repr(plan)
+
+
+def test_nothing_derives_from_a_record() -> None:
+    with pytest.raises(TypeError, match="let it hold one instead"):
+
+        class Mine(Demonstration):
+            pass

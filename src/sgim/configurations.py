@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, replace
 from typing import Any, Literal, get_args, get_type_hints
@@ -10,6 +11,19 @@ from typing import Any, Literal, get_args, get_type_hints
 from sgim.errors import SettingError, unknown
 from sgim.outcome.progress import InterestMeasure, MeanProgress
 from sgim.task import Task
+
+_AT_LEAST_ONE = (
+    "search_movements",
+    "mimicry_movements",
+    "progress_window",
+    "region_capacity",
+    "split_candidates",
+    "goals",
+    "sharpness",
+    "demonstration_every",
+    "request_window",
+)
+_ABOVE_NOTHING = ("social_cost", "progress_scale", "request_cost")
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,6 +99,14 @@ class Configuration:
     request_window: int = 20
     request_initiation: int = 10
     request_least: float = 0.1
+
+    def __post_init__(self) -> None:
+        for name in _AT_LEAST_ONE:
+            if not getattr(self, name) >= 1:
+                raise SettingError(f"{name} is {getattr(self, name)}, expected 1 or more")
+        for name in _ABOVE_NOTHING:
+            if not 0 < getattr(self, name) < math.inf:
+                raise SettingError(f"{name} is {getattr(self, name)}, expected a positive number")
 
     def measure(self, task: Task) -> InterestMeasure:
         """How progress and interest are measured (eq. 4.2 and 4.3)."""

@@ -21,7 +21,7 @@ def frozen(cls: type[Class]) -> type[Class]:
 
     Args:
         cls: A class whose annotations are the fields, without ``__post_init__`` or factories
-            of defaults.
+            of defaults. Nothing can derive from the record made of it.
     """
     made: Any = dataclass(frozen=True, slots=True, eq=False)(cls)
     names = [f.name for f in fields(made)]
@@ -41,5 +41,10 @@ def frozen(cls: type[Class]) -> type[Class]:
     fast.__defaults__, fast.__annotations__ = slow.__defaults__, slow.__annotations__
     fast.__qualname__, fast.__module__ = slow.__qualname__, made.__module__
     made.__init__ = fast
+    made.__init_subclass__ = classmethod(_refuse_to_derive)
     result: type[Class] = made
     return result
+
+
+def _refuse_to_derive(cls: type[Any], /, **options: Any) -> None:
+    raise TypeError(f"{cls.__name__} derives from a record; let it hold one instead")

@@ -203,3 +203,23 @@ def test_reports_of_unknown_modes_and_goals_out_of_bounds_change_nothing() -> No
     other.update(report([3.0], "alone", kind="nothing known"))
     assert (one.gains() == other.gains()).all()
     assert not other.roots["place"].records
+
+
+def test_nothing_expected_anywhere_is_no_lock() -> None:
+    one = map_of(prior=0.0, goals=1)
+    choices = chosen(one)
+    assert share_of(choices, kind="place") == pytest.approx(0.5, abs=0.05)
+    assert share_of(choices, mode="ask") == pytest.approx(0.5, abs=0.05)
+
+
+def test_a_first_emulation_of_what_is_known_does_not_hide_a_kind() -> None:
+    one = map_of()
+    known = Goal("place", np.array([5.0]))
+    one.update(report([0.0, 1.0], "ask", kind="throw", pursued=known, before=0.0, after=0.0))
+    assert share_of(chosen(one), kind="throw") > 0.2
+
+
+def test_contexts_measured_a_little_outside_their_box_count_at_its_border() -> None:
+    one = map_of(spaces={"place": SPACES["place"]}, context_space=Box(0, 1))
+    one.update(report([3.0], context=np.array([1.05]), before=-0.4, after=-0.2))
+    assert one.roots["place"].records[0].place == (0.3, 1.0)

@@ -36,8 +36,8 @@ class ExpectedGain(Partition):
 
     The gain expected in a region by a mode is what attempts there have lately found lacking,
     times the share of it that a movement of this mode removes, divided by the mode's cost. What
-    is lacking falls as the learner learns, whoever teaches it; the share says how good a mode is
-    there, early and late alike, so that modes can be compared that were tried at different times.
+    is lacking falls as the learner learns; the share says how good a mode is there, early and
+    late alike, so that modes can be compared that were tried at different times.
     It is 0 where nothing can be learned: out of reach, or from a teacher who does not help.
 
     A share is estimated from a mode's last attempts in the region, and, while these are few, from
@@ -124,17 +124,20 @@ class ExpectedGain(Partition):
 
         A gain counts as a share of what is usually lacking in the region, at least: to come still
         nearer to what is nearly reached gains little, and so does emulating what is mastered.
+        Emulation, which pursues another goal, says nothing of what is lacking here.
         """
         mode = self.modes.get(report.mode)
         place = self.place_of(report.chosen, report.context)
         if mode is None or place is None:
             return
         region = self.region_of(report.chosen.kind, place)
-        usual = float(self._lack[region.leaf]) if region.records else 0.0
-        lack = max(-report.before, usual)
+        before = min(-report.before, 1.0)  # more, where gains in earlier contexts are added
+        kept = _kept_to_its_goal(report)
+        usual = float(self._lack[region.leaf]) if region.records or not kept else before
+        lack = max(before, usual)
         gain = report.after - report.before
         share = gain / (lack * report.movements) if lack > 0 else 0.0
-        found = -report.before if _kept_to_its_goal(report) else lack
+        found = before if kept else usual
         region.records.append(Attempt(place, found, share, mode))
         self._recent[region.kind][mode].append(share)
         if len(region.records) > self.capacity:
@@ -209,8 +212,11 @@ class ExpectedGain(Partition):
             else:
                 wanted = pick * float(cumulated[-1])
                 i = min(int(cumulated.searchsorted(wanted, "right")), len(cumulated) - 1)
+                if wanted > 0.0:
+                    pick = min((cumulated[i] - wanted) / totals[i], 1.0 - 1e-12)
+                else:  # as also where nothing is expected anywhere
+                    i, pick = int(pick * len(totals)), rule
                 region = self.leaves[leaves[i]]
-                pick = (cumulated[i] - wanted) / totals[i] if totals[i] > 0 else rule
                 corners = zip(shares, region.low.tolist(), region.high.tolist(), strict=False)
                 place = [low + share * (high - low) for share, low, high in corners]
                 del place[self.spaces[region.kind].dimension :]
@@ -225,6 +231,8 @@ class ExpectedGain(Partition):
             return offered[0]
         row = self._weights[region.leaf].tolist()
         left = pick * sum(row[mode] for mode in offered)
+        if left == 0.0:  # as also where nothing is expected of any
+            return offered[int(pick * len(offered))]
         for mode in offered:
             left -= row[mode]
             if left < 0:

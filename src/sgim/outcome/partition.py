@@ -79,7 +79,7 @@ class Partition:
     ) -> None:
         for what, space in [*goal_spaces.items(), ("context", context_space or Box(0, 1))]:
             if not isinstance(space, Box):
-                raise TypeError(f"a region tree needs boxes, but {what!r} is {space!r}")
+                raise TypeError(f"interest over regions needs boxes, but {what!r} is {space!r}")
         self.spaces: dict[str, Box] = {k: s for k, s in goal_spaces.items() if isinstance(s, Box)}
         self.context_space = context_space
         self.streams = streams
@@ -104,14 +104,16 @@ class Partition:
         return region
 
     def place_of(self, goal: Goal, context: Any) -> tuple[float, ...] | None:
-        """Where a goal in a context lies; None if outside the boxes, or of another kind."""
+        """Where a goal in a context lies; None if outside its box, or of another kind."""
         space = self.spaces.get(goal.kind)
         if space is None:
             return None
         place: list[float] = space.encode(goal.point).tolist()
-        if self.context_space is not None:
-            place += self.context_space.encode(context).tolist()
-        return tuple(place) if all(0.0 <= x <= 1.0 for x in place) else None
+        if not all(0.0 <= x <= 1.0 for x in place):
+            return None
+        if self.context_space is not None:  # measured ones may lie a little outside
+            place += np.clip(self.context_space.encode(context), 0.0, 1.0).tolist()
+        return tuple(place)
 
     def present(self, context: Any) -> Sequence[int]:
         """Rows of the leaves that contain the context; all of them where there are none."""

@@ -58,7 +58,8 @@ class FixedFrequency(TwoModes):
         imitating: Asks the teacher for anything, and imitates that.
         alone: Autonomous exploration.
         interest: The map over the one mode ``alone``, which chooses its goals.
-        every: Movements from one demonstration to the next, M in the thesis.
+        every: Movements from one demonstration to the next, M in the thesis. Those count that
+            told something: where movements fail, demonstrations are farther apart.
     """
 
     def __init__(self, imitating: Mode, alone: Mode, interest: InterestMap, every: int) -> None:
@@ -82,7 +83,8 @@ class FixedFrequency(TwoModes):
 
     def update(self, report: EpisodeReport) -> None:
         """Count movements, and let the interest map learn."""
-        self._since = report.movements + (0 if report.demonstration else self._since)
+        imitated = report.demonstration is not None and report.mode == self.imitating.name
+        self._since = report.movements + (0 if imitated else self._since)
         super().update(report)
 
 
@@ -124,7 +126,7 @@ class ProgressRatio(TwoModes):
 
     def probability(self) -> float:
         """Of asking for a demonstration now."""
-        if min(self._episodes.values()) < self.initiation:
+        if min(self._episodes.values()) < max(self.initiation, 1):
             return 0.5
         imitating, alone = (
             max(0.0, sum(recent) / len(recent))

@@ -45,7 +45,7 @@ class DemonstrationsFirst:
 
     Args:
         asking: The modes that ask, one after the other.
-        requests: How many requests there are in all, one an episode.
+        requests: How many of the first episodes ask; one whose teacher is absent does not.
         first: Draws the goals of the requests.
         alone: What follows.
         interest: The map that chooses the goals of what follows, and learns from it alone.
