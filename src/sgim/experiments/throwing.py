@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from functools import partial
+from typing import Any
 
 from sgim.environments.base import MinimalEnvironment
 from sgim.environments.benchmark_goals import throwing_goals
@@ -35,14 +36,9 @@ THROWING = Experiment(
 )
 
 
-def _variant(name: str, summary: str, **changes: object) -> Experiment:
-    return replace(
-        THROWING,
-        name=f"throwing-{name}",
-        summary=summary,
-        variant_of="throwing",
-        **changes,  # type: ignore[arg-type]
-    )
+def _variant(name: str, summary: str, **changes: Any) -> Experiment:
+    named = replace(THROWING, name=f"throwing-{name}", summary=summary, variant_of="throwing")
+    return replace(named, **changes)
 
 
 THROWING_VARIANTS = [
