@@ -18,6 +18,7 @@ from sgim.environments.throwing_teachers import (
     partial_teachers,
     throwing_teachers,
 )
+from sgim.environments.vocal import VocalTract, ambient_language, vocal_goals
 
 __all__ = [
     "ARMS",
@@ -28,6 +29,8 @@ __all__ = [
     "MinimalEnvironment",
     "PlanarArm",
     "ThrowingArm",
+    "VocalTract",
+    "ambient_language",
     "draw_context",
     "execute_all",
     "fishing_demonstrations",
@@ -40,4 +43,5 @@ __all__ = [
     "reachable_goals",
     "throwing_goals",
     "throwing_teachers",
+    "vocal_goals",
 ]

@@ -13,6 +13,7 @@ from sgim.errors import unknown
 from sgim.experiments.experiment import Experiment
 from sgim.experiments.fishing import FISHING
 from sgim.experiments.throwing import THROWING, THROWING_VARIANTS
+from sgim.experiments.vocal import VOCAL
 from sgim.runs.benchmark import Benchmark
 
 DEFAULT_ARM = "7-tight"
@@ -56,6 +57,7 @@ EXPERIMENTS = {
         *THROWING_VARIANTS,
         HOCKEY,
         *FISHING,
+        VOCAL,
         *(_arm(name) for name in ARMS),
     ]
 }
