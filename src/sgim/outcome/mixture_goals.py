@@ -149,6 +149,6 @@ class Source:
             return vector
         place = min(bisect_right(self._cumulated, pick * self._cumulated[-1]), len(self._means) - 1)
         mean = self._means[place]
-        offset: FloatArray = self._factors[place].dot(rng.standard_normal(mean.shape))
-        offset += mean
-        return offset
+        drawn: FloatArray = (self._factors[place] * rng.standard_normal(mean.shape)).sum(axis=1)
+        drawn += mean
+        return drawn
