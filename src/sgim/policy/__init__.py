@@ -2,17 +2,23 @@
 
 from sgim.policy.explorer import Episode, Explorer
 from sgim.policy.local_search import LocalSearch
+from sgim.policy.mixture_model import Learning, MixtureModel
+from sgim.policy.mixture_search import AroundRest, MixtureSearch
 from sgim.policy.model import CompetenceModel, InverseModel, NearestModel, NoAnswerError
 from sgim.policy.nelder_mead import NelderMeadSearch
 from sgim.policy.simple import Mimicry, NoisyNearest, RandomPolicies
 
 __all__ = [
+    "AroundRest",
     "CompetenceModel",
     "Episode",
     "Explorer",
     "InverseModel",
+    "Learning",
     "LocalSearch",
     "Mimicry",
+    "MixtureModel",
+    "MixtureSearch",
     "NearestModel",
     "NelderMeadSearch",
     "NoAnswerError",
