@@ -46,7 +46,9 @@ def draw_tract(
     shape = contours(anatomy, positions[:, None])
     protrusion = float(positions[ARTICULATORS.index("lip protrusion")])
     length = max(anatomy.lip_length + anatomy.lip_length_by_protrusion * protrusion, 0.1)
-    tongue, wall = shape.points(shape.tongue)[:, :, 0], shape.points(shape.wall)[:, :, 0]
+    tongue, wall = (
+        shape.points(part)[:, :, 0].astype(np.float64) for part in (shape.tongue, shape.wall)
+    )
     if walls:
         _draw_walls(axes, wall, anatomy)
     opening = float(shape.lips[0])
@@ -100,7 +102,7 @@ def _draw_walls(axes: Axes, wall: FloatArray, anatomy: Anatomy) -> None:
     teeth, height = anatomy.teeth_place, anatomy.teeth_height
     tooth = [(teeth, height), (teeth + 0.05, height - 0.2), (teeth + 0.15, height)]
     axes.plot(*np.array(tooth).T, color=WALLS, linewidth=1.2)
-    nose = np.array(_NOSE) + [teeth + 0.6, height - 0.2]
+    nose = np.array(_NOSE) + np.array([teeth + 0.6, height - 0.2])
     axes.plot(*nose.T, color="#BFBFBF", linewidth=1.2)
 
 

@@ -101,7 +101,12 @@ def _draw_heard(axes: Axes, spoken: Vocalisation, sound: FloatArray) -> None:
     level.set_yticks([0, 1])
     level.set_ylabel("intensity")
     axes.legend(
-        *(a + b for a, b in zip(axes.get_legend_handles_labels(), level.get_legend_handles_labels(), strict=True)),
+        *(
+            a + b
+            for a, b in zip(
+                axes.get_legend_handles_labels(), level.get_legend_handles_labels(), strict=True
+            )
+        ),
         fontsize=7,
         frameon=False,
         ncols=3,
