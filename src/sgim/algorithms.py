@@ -19,6 +19,7 @@ demonstrations-first            mimic, autonomous     uniform goals   demonstrat
 demonstrations-first-sagg-riac  mimic, autonomous     regions         demonstrations first
 sagg-riac-gmm                   autonomous            mixture         at rest, joint choice
 sgim-acts-gmm                   emulate, autonomous   mixture         at rest, joint choice
+goal-babbling-gmm               autonomous            mixture         at rest, joint choice
 ==============================  ====================  ==============  =====================
 
 The four before the last two are controls that choosing must beat. Regions are weighed by progress
@@ -43,7 +44,7 @@ from typing import Any, Protocol
 from sgim.configurations import configuration_of
 from sgim.errors import SgimError, unknown
 from sgim.learner import Learner
-from sgim.mixture_algorithms import sagg_riac_gmm, sgim_acts_gmm
+from sgim.mixture_algorithms import goal_babbling_gmm, sagg_riac_gmm, sgim_acts_gmm
 from sgim.outcome import UniformGoals
 from sgim.parts import Given, MakeMap, Parts, Teachers
 from sgim.policy import NoisyNearest, RandomPolicies
@@ -272,6 +273,7 @@ ALGORITHMS: dict[str, Algorithm] = {
     "demonstrations-first-sagg-riac": demonstrations_first_sagg_riac,
     "sagg-riac-gmm": sagg_riac_gmm,
     "sgim-acts-gmm": sgim_acts_gmm,
+    "goal-babbling-gmm": goal_babbling_gmm,
 }
 
 

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
+from sgim.configurations import configuration_of
 from sgim.errors import SgimError
 from sgim.learner import Learner
 from sgim.parts import Given, MakeMap, Parts, Teachers
@@ -21,6 +24,19 @@ def sagg_riac_gmm(
 ) -> Learner:
     """Goal babbling with mixtures, without teachers (algorithm 5.2.1)."""
     return _composed(Parts("sagg-riac-gmm", task, (), configuration, seed, interest))
+
+
+def goal_babbling_gmm(
+    task: Task,
+    teachers: Teachers = (),
+    *,
+    configuration: Given = "modern",
+    seed: int = 0,
+    interest: MakeMap | None = None,
+) -> Learner:
+    """As sagg-riac-gmm, but its goals ignore progress: a control."""
+    config = replace(configuration_of(configuration), interest_weights="none")
+    return _composed(Parts("goal-babbling-gmm", task, (), config, seed, interest))
 
 
 def sgim_acts_gmm(
