@@ -8,9 +8,11 @@ from sgim.figures.error_curves import error_curves
 from sgim.figures.explored import explored
 from sgim.figures.fishing import fishing_movement
 from sgim.figures.hockey_shots import hockey_shots
+from sgim.figures.mixtures import mixture_interest, mixture_learning
 from sgim.figures.vocal_classes import vocal_classes, vocal_stages
 from sgim.figures.vocal_densities import vocal_densities
 from sgim.figures.vocal_sounds import vocal_sounds
+from sgim.figures.vocal_strategies import vocal_strategies
 from sgim.figures.vocal_tract import draw_tract, vocal_articulators
 from sgim.figures.vocalisation import vocalisation
 
@@ -22,10 +24,13 @@ __all__ = [
     "explored",
     "fishing_movement",
     "hockey_shots",
+    "mixture_interest",
+    "mixture_learning",
     "vocal_articulators",
     "vocal_classes",
     "vocal_densities",
     "vocal_sounds",
     "vocal_stages",
+    "vocal_strategies",
     "vocalisation",
 ]
