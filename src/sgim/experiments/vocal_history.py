@@ -40,6 +40,13 @@ class VocalHistory:
     def __len__(self) -> int:
         return len(self.sounds)
 
+    def part(self, start: int, end: int) -> VocalHistory:
+        """The vocalisations from a number on, up to another."""
+        if start == 0 and end >= len(self):
+            return self
+        rows = slice(start, end)
+        return VocalHistory(self.sounds[rows], self.goals[rows], self.names, self.modes[rows])
+
     @cached_property
     def classes(self) -> NDArray[np.int64]:
         """The class of each, a place in `CLASSES`."""
@@ -127,7 +134,7 @@ def read_history(path: str | Path) -> VocalHistory:
     aimless = np.full(len(SOUND), np.nan).tobytes()
     ends = [closed.get(episodes[plan], (None, None)) for plan, _ in told]
     names = sorted({str(name) for name, _ in ends if name is not None})
-    code = {name: i for i, name in enumerate(names)}
+    code: dict[str | None, int] = {name: i for i, name in enumerate(names)}
     return VocalHistory(
         _table([point for _, point in told], len(SOUND)),
         _table([point or aimless for _, point in ends], len(SOUND)),
