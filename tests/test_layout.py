@@ -21,7 +21,7 @@ SPINE = (
     {"policy"},
     {"outcome"},
     {"strategy"},
-    {"ledger", "transitions", "answers", "learner"},
+    {"ledger", "openings", "transitions", "answers", "learner"},
     {"configurations", "parts", "algorithms"},
     {"runs"},
     {"experiments"},
