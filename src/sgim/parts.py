@@ -10,7 +10,17 @@ from sgim.errors import SgimError
 from sgim.learner import Learner
 from sgim.memory import Memory
 from sgim.outcome import ExpectedGain, InterestMap, RegionTree, UniformGoals
-from sgim.policy import Explorer, LocalSearch, Mimicry, NearestModel, NelderMeadSearch
+from sgim.policy import (
+    CovarianceAdaptation,
+    Explorer,
+    LocalSearch,
+    MakeDistribution,
+    Mimicry,
+    NearestModel,
+    NelderMeadSearch,
+    PathIntegral,
+    PopulationSearch,
+)
 from sgim.strategy import DemonstrationsFirst, JointChoice, Mode, News, Strategy
 from sgim.streams import Streams
 from sgim.task import Task
@@ -18,6 +28,8 @@ from sgim.task import Task
 Teachers = str | Sequence[str]
 MakeMap = Callable[[Mapping[str, float]], InterestMap]
 Given = str | Configuration
+
+_DISTRIBUTIONS: dict[str, MakeDistribution] = {"cma-es": CovarianceAdaptation, "pi2": PathIntegral}
 
 
 class Parts:
@@ -74,6 +86,12 @@ class Parts:
         config = self.config
         if config.search == "nelder-mead":
             return NelderMeadSearch(self.model)
+        if config.search in _DISTRIBUTIONS:
+            return PopulationSearch(
+                self.model,
+                _DISTRIBUTIONS[config.search],
+                reached_share=config.reached_share,
+            )
         return LocalSearch(
             self.model, budget=config.search_movements, reached_share=config.reached_share
         )

@@ -25,6 +25,7 @@ from sgim.policy.explorer import Explorer
 from sgim.policy.local_search import LocalSearch
 from sgim.policy.model import NearestModel
 from sgim.policy.nelder_mead import NelderMeadSearch
+from sgim.policy.population import CovarianceAdaptation, PathIntegral, PopulationSearch
 from sgim.policy.simple import Mimicry, NoisyNearest, RandomPolicies
 from sgim.spaces import Box, Choices, Space
 from sgim.streams import Streams
@@ -158,6 +159,8 @@ EXPLORERS: Mapping[str, Callable[[NearestModel], Explorer]] = {
     "Nelder-Mead": NelderMeadSearch,
     "local search": LocalSearch,
     "local search, large variations": lambda model: LocalSearch(model, variation=(1.0, 30.0)),
+    "CMA-ES": lambda model: PopulationSearch(model, CovarianceAdaptation),
+    "PI2": lambda model: PopulationSearch(model, PathIntegral),
     "noise around the nearest": NoisyNearest,
     "noise from the first trial on": lambda model: NoisyNearest(model, bootstrap=0),
     "mimicry": lambda model: Mimicry(model.memory.task.policy_space, 0.3),

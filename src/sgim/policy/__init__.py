@@ -4,18 +4,28 @@ from sgim.policy.explorer import Episode, Explorer
 from sgim.policy.local_search import LocalSearch
 from sgim.policy.model import CompetenceModel, InverseModel, NearestModel, NoAnswerError
 from sgim.policy.nelder_mead import NelderMeadSearch
+from sgim.policy.population import (
+    CovarianceAdaptation,
+    MakeDistribution,
+    PathIntegral,
+    PopulationSearch,
+)
 from sgim.policy.simple import Mimicry, NoisyNearest, RandomPolicies
 
 __all__ = [
     "CompetenceModel",
+    "CovarianceAdaptation",
     "Episode",
     "Explorer",
     "InverseModel",
     "LocalSearch",
+    "MakeDistribution",
     "Mimicry",
     "NearestModel",
     "NelderMeadSearch",
     "NoAnswerError",
     "NoisyNearest",
+    "PathIntegral",
+    "PopulationSearch",
     "RandomPolicies",
 ]
