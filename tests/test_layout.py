@@ -21,7 +21,7 @@ SPINE = (
     {"policy"},
     {"outcome"},
     {"strategy"},
-    {"ledger", "transitions", "answers", "learner"},
+    {"ledger", "openings", "transitions", "answers", "learner"},
     {"mixture_settings", "configurations", "parts", "mixture_algorithms", "algorithms"},
     {"runs"},
     {"experiments"},

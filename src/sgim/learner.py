@@ -12,7 +12,7 @@ from typing import Any
 
 from sgim import demonstrations
 from sgim.answers import Answers
-from sgim.errors import SpaceError, TeacherError, unknown
+from sgim.errors import PlanError, SpaceError, TeacherError, unknown
 from sgim.events import (
     Answered,
     Available,
@@ -104,26 +104,7 @@ class Learner(Transitions, Answers):
         Returns:
             A plan with a policy to try, or with a request to a teacher.
         """
-        context = self.task.check_context(context)
-        running = self.ledger.oldest_idle()
-        if running is not None:
-            try:
-                policy = self.proposed(self.resumed(running, context))
-            except BaseException:
-                self.ledger.make_idle(running)
-                raise
-        else:
-            event = self.decide_opening(context)
-            running = self.open(event)
-            try:
-                policy = self.proposed(running)
-            except BaseException:
-                self.unopen(running, event)
-                raise
-            self._emit(event)
-        plan = self.issue(running, policy)
-        self.report_unwritten()
-        return plan
+        return self.ask_batch(1, [context])[0]
 
     def ask_batch(self, n: int, contexts: Sequence[Any] | None = None) -> list[Plan]:
         """Decide n plans that can be carried out side by side.
@@ -144,16 +125,12 @@ class Learner(Transitions, Answers):
         checked = [self.task.check_context(c) for c in given]
         chosen: list[tuple[Running, Opened | None]] = []
         try:
-            for context in checked:
-                running = self.ledger.oldest_idle()
-                if running is not None:
-                    chosen.append((running, None))
-                    self.resumed(running, context)
-                else:
-                    event = self.decide_opening(context)
-                    chosen.append((self.open(event), event))
-            asking = [running for running, _ in chosen if not running.must_ask]
-            policies = self.all_sealed(_propose(asking)) if asking else []
+            while len(chosen) < n and (running := self.ledger.oldest_idle()) is not None:
+                chosen.append((running, None))
+                self.resumed(running, checked[len(chosen) - 1])
+            if len(chosen) < n:
+                chosen += self.open_new(checked[len(chosen) :])
+            policies = self.proposed([running for running, _ in chosen])
         except BaseException:
             for running, opening in reversed(chosen):
                 if opening is None:
@@ -161,12 +138,11 @@ class Learner(Transitions, Answers):
                 else:
                     self.unopen(running, opening)
             raise
-        proposed = iter(policies)
         plans = []
-        for running, opening in chosen:
+        for (running, opening), policy in zip(chosen, policies, strict=True):
             if opening is not None:
                 self._emit(opening)
-            plans.append(self.issue(running, None if running.must_ask else next(proposed)))
+            plans.append(self.issue(running, policy))
         self.report_unwritten()
         return plans
 
@@ -204,7 +180,7 @@ class Learner(Transitions, Answers):
         self._emit(Answered(plan.id, usable, seconds))
         try:
             self.learn_answer(plan, running, usable)
-            policy = self.proposed(running)
+            (policy,) = self.proposed([running])
         except BaseException:
             self.ledger.make_idle(running)
             raise
@@ -227,13 +203,49 @@ class Learner(Transitions, Answers):
             SpaceError: If the outcome is malformed; the plan is still out then.
             PlanError: If the plan is not out, or holds a request.
         """
-        running = self.ledger.out(plan, request=False)
-        outcome = self.task.check_outcome(outcome)
-        if self.record is not None:
-            self._emit(Told(plan.id, outcome, seconds))
-        report = self.learn_trial(plan, running, Trial(plan.policy, outcome, plan.context))
+        return self.tell_batch([plan], [outcome], seconds=[seconds])[0]
+
+    def tell_batch(
+        self,
+        plans: Sequence[Plan],
+        outcomes: Sequence[Outcome],
+        *,
+        seconds: Sequence[float | None] | None = None,
+    ) -> list[Report]:
+        """As `tell` for several plans, in this order; the model learns from all of them at once.
+
+        Args:
+            plans: Different plans of this learner that hold policies and are still out.
+            outcomes: What each produced.
+            seconds: The robot's time that each took, if known.
+
+        Raises:
+            SpaceError: If an outcome is malformed; all the plans are still out then.
+            PlanError: If a plan is not out, holds a request, or comes twice; the same holds.
+            ValueError: If there is not one outcome for each plan.
+        """
+        if len(outcomes) != len(plans):
+            raise ValueError(f"{len(plans)} plans came with {len(outcomes)} outcomes")
+        some = [self.ledger.out(plan, request=False) for plan in plans]
+        if len(plans) > 1 and len({plan.id for plan in plans}) < len(plans):
+            raise PlanError("a plan comes twice in one batch; each is told once")
+        checked = self.task.check_outcomes(outcomes)
+        trials = [Trial(p.policy, o, p.context) for p, o in zip(plans, checked, strict=True)]
+        known = self.remember(some, trials)
+        reports: list[Report] = []
+        troubles: list[BaseException] = []
+        for i, (plan, trial) in enumerate(zip(plans, trials, strict=True)):
+            if self.record is not None:
+                taken = None if seconds is None else seconds[i]
+                self._emit(Told(plan.id, trial.outcome, taken))
+            try:
+                reports.append(self.learn_trial(plan, some[i], trial, known[i]))
+            except BaseException as error:  # those behind it have happened, too
+                troubles.append(error)
+        if troubles:
+            raise troubles[0]
         self.report_unwritten()
-        return report
+        return reports
 
     def fail(self, plan: Plan, reason: str, *, seconds: float | None = None) -> None:
         """Say that the world broke while a plan was carried out: it teaches nothing."""
@@ -309,17 +321,3 @@ class Learner(Transitions, Answers):
         self._emit(event)
         self.take_unasked(event)
         self.report_unwritten()
-
-
-def _propose(chosen: Sequence[Running]) -> list[Any]:
-    """Policies for these episodes in order, each explorer asked once."""
-    groups: dict[int, list[int]] = {}
-    for i, running in enumerate(chosen):
-        groups.setdefault(id(running.mode.explorer), []).append(i)
-    policies: list[Any] = [None] * len(chosen)
-    for members in groups.values():
-        explorer = chosen[members[0]].mode.explorer
-        proposed = explorer.propose([chosen[i].episode for i in members])
-        for i, policy in zip(members, proposed, strict=True):
-            policies[i] = policy
-    return policies

@@ -10,7 +10,7 @@ import numpy as np
 
 from sgim.policy.explorer import Episode
 from sgim.policy.model import NearestModel
-from sgim.records import Trial
+from sgim.records import Goal, Trial
 from sgim.spaces import Box, FloatArray
 
 _BLUR = 0.1  # Policies this much nearer than the farthest, squared, weigh alike: noise.
@@ -32,21 +32,14 @@ class _State:
     )
 
     def __init__(
-        self,
-        goal: FloatArray,
-        policies: FloatArray,
-        keys: FloatArray,
-        distances: FloatArray,
-        room: int,
+        self, goal: FloatArray, policies: FloatArray, keys: FloatArray, costs: list[float]
     ) -> None:
-        n = self.count = len(policies)
         self.goal = goal
-        self.policies = np.zeros((room, policies.shape[1]))
-        self.keys = np.zeros((room, len(goal)))
-        self.policies[:n] = policies
-        self.keys[:n] = keys
-        self.costs: list[float] = distances.tolist()
-        self.best = 0 if n else -1
+        self.policies = policies
+        self.keys = keys
+        self.costs = costs
+        self.count = len(costs)
+        self.best = 0 if costs else -1
         self.proposed = policies[:0]
 
     def aim(self, goal: FloatArray) -> None:
@@ -122,17 +115,29 @@ class LocalSearch:
 
     def begin(self, episode: Episode) -> None:
         """Gather the remembered trials nearest to the goal."""
-        goal = episode.goal
-        assert goal is not None
-        memory = self.model.memory.kinds[goal.kind]
-        distances, rows = self.model.nearest(goal, episode.context)
-        episode.state = _State(
-            self.model.goal_key(goal, episode.context),
-            memory.encoded_policies(rows),
-            memory.keys.rows[rows],
-            distances,
-            self.model.neighbourhood + self.budget,
-        )
+        self.begin_all([episode])
+
+    def begin_all(self, episodes: Sequence[Episode]) -> None:
+        """As `begin` for several episodes."""
+        aimed: dict[str, list[tuple[Episode, Goal]]] = {}
+        for episode in episodes:
+            assert episode.goal is not None
+            aimed.setdefault(episode.goal.kind, []).append((episode, episode.goal))
+        for kind, members in aimed.items():
+            goals, contexts = [goal for _, goal in members], [e.context for e, _ in members]
+            memory = self.model.memory.kinds[kind]
+            found = self.model.nearest_all(goals, contexts)
+            rows = np.array([rows for _, rows in found])
+            n, near = rows.shape
+            room = self.model.neighbourhood + self.budget
+            policies = np.zeros((n, room, self.space.dimension))
+            keys = np.zeros((n, room, memory.keys.width))
+            flat = memory.encoded_policies(rows.ravel())
+            policies[:, :near] = flat.reshape(n, near, self.space.dimension)
+            keys[:, :near] = memory.keys.rows[rows]
+            wanted = self.model.memory.keys(kind, [goal.point for goal in goals], contexts)
+            for i, (episode, _) in enumerate(members):
+                episode.state = _State(wanted[i], policies[i], keys[i], found[i][0].tolist())
 
     def moved(self, episode: Episode) -> None:
         """Measure what is known against the goal in the new context."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 import warnings
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, Protocol
 
@@ -13,13 +13,14 @@ from sgim.environments.base import MinimalEnvironment
 from sgim.errors import JournalError, SgimError
 from sgim.events import Evaluated, Session
 from sgim.learner import Learner
-from sgim.records import Plan
+from sgim.records import Outcome, Plan
 from sgim.runs.benchmark import Benchmark
 from sgim.runs.continuation import keep_journal, session_facts
 from sgim.runs.interrupt import InterruptWish
 from sgim.runs.journal import Journal
 from sgim.runs.journal_reading import first_difference
 from sgim.runs.replay import Replayed, iterate_trials
+from sgim.runs.telling import tell_together
 from sgim.runs.world import Executed, World
 from sgim.streams import Streams
 from sgim.teachers import Teacher
@@ -222,12 +223,18 @@ class Run:
             if plan.request is not None:
                 self._answered(plan)
         plans = learner.pending
+        executed = list(zip(plans, world.execute_all(plans), strict=True))
         given_up: RunError | None = None
-        for plan, outcome in zip(plans, world.execute_all(plans), strict=True):
-            try:
-                self._tell(plan, outcome, observer)
-            except RunError as error:  # the movements behind it have been made, too
-                given_up = given_up or error
+        while executed:
+            due = self.evaluate_every - self.movements % self.evaluate_every
+            if outcomes := tell_together(learner, executed[:due]):
+                self._told(outcomes, observer)
+            else:
+                try:
+                    self._tell(*executed[0], observer)
+                except RunError as error:  # the movements behind it have been made, too
+                    given_up = given_up or error
+            del executed[: len(outcomes) or 1]
         if given_up is not None:
             raise given_up
 
@@ -250,13 +257,22 @@ class Run:
         else:
             try:
                 self.learner.tell(plan, outcome)
-                self._failures["the world"] = 0
             except JournalError:
                 raise
             except SgimError as error:
                 self._failed("the world", error, plan)
             else:
-                self.world.observed(outcome)
+                self._told([outcome], observer)
+                return
+        self._evaluate_if_due(observer)
+
+    def _told(self, outcomes: Sequence[Outcome], observer: Observer | None) -> None:
+        self._failures["the world"] = 0
+        for outcome in outcomes:
+            self.world.observed(outcome)
+        self._evaluate_if_due(observer)
+
+    def _evaluate_if_due(self, observer: Observer | None) -> None:
         if self.learner.movements % self.evaluate_every == 0:
             self._evaluate(observer)
 
