@@ -35,6 +35,36 @@ def to_carry_out(learner: Learner, n: int) -> list[Plan]:
     return learner.pending
 
 
+def test_requests_answered_at_once_are_each_answered_in_turn() -> None:
+    one, other = (
+        algorithms.make("sgim-acts", WORLD.task, ["T1", "T2", "T3"], seed=5) for _ in range(2)
+    )
+    events = recorded(one), recorded(other)
+    answered = 0
+    for _ in range(8):
+        batches = one.ask_batch(20), other.ask_batch(20)
+        requests, same = ([p for p in batch if p.request is not None] for batch in batches)
+        shown = [
+            None
+            if plan.request is None or plan.request.index % 4 == 0
+            else throwing_teachers()[plan.request.teacher].demonstrate(
+                plan.request.goal, np.random.default_rng(plan.request.index)
+            )
+            for plan in requests
+        ]
+        following = other.answer_batch(same, shown)
+        for plan, demonstration, expected in zip(requests, shown, following, strict=True):
+            assert one.answer(plan, demonstration).id == expected.id
+        answered += len(requests)
+        for learner in (one, other):
+            plans = learner.pending
+            learner.tell_batch(plans, WORLD.execute_batch([plan.policy for plan in plans]))
+    assert answered > 20
+    codec = Codec(WORLD.task)
+    rows = [[row for event in some for row in codec.encode(event)] for some in events]
+    assert rows[0] == rows[1]
+
+
 @pytest.mark.parametrize("configuration", ["modern", "thesis"])
 @pytest.mark.parametrize("name", ["sgim-acts", "random-goal-babbling", "random", "round-robin"])
 def test_a_batch_told_at_once_is_each_plan_told_in_turn(name: str, configuration: str) -> None:
@@ -91,7 +121,7 @@ def test_a_malformed_outcome_in_a_batch_is_refused_and_all_its_plans_stay_out() 
 def test_a_batch_that_is_not_one_outcome_for_each_plan_is_refused() -> None:
     learner = algorithms.make("sagg-riac", WORLD.task, seed=1)
     plans = learner.ask_batch(2)
-    with pytest.raises(ValueError, match="2 plans came with 1 outcomes"):
+    with pytest.raises(ValueError, match="2 plans came with 1 answers or outcomes"):
         learner.tell_batch(plans, [{}])
     with pytest.raises(PlanError, match="a plan comes twice"):
         learner.tell_batch([plans[0], plans[0]], [{}, {}])

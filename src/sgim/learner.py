@@ -12,7 +12,7 @@ from typing import Any
 
 from sgim import demonstrations
 from sgim.answers import Answers
-from sgim.errors import PlanError, SpaceError, TeacherError, unknown
+from sgim.errors import SpaceError, unknown
 from sgim.events import (
     Answered,
     Available,
@@ -167,26 +167,50 @@ class Learner(Transitions, Answers):
             TeacherError: If the demonstration is unusable; the request is still out then.
             PlanError: If the plan is not out, or holds no request.
         """
-        running = self.ledger.out(plan, request=True)
-        usable = None
-        if demonstration is not None:
-            assert plan.request is not None
-            usable = demonstrations.checked(self.task, demonstration, plan.request.teacher)
-            if running.mode.needs_policy and usable.policy is None:
-                raise TeacherError(
-                    f"mode {running.mode.name!r} needs a demonstration with a policy or a "
-                    "trajectory; this one has only an outcome"
-                )
-        self._emit(Answered(plan.id, usable, seconds))
+        return self.answer_batch([plan], [demonstration], seconds=[seconds])[0]
+
+    def answer_batch(
+        self,
+        plans: Sequence[Plan],
+        shown: Sequence[Demonstration | None],
+        *,
+        seconds: Sequence[float | None] | None = None,
+    ) -> list[Plan]:
+        """As `answer` for several requests, in this order, at one pass through the explorers.
+
+        Raises:
+            TeacherError: If a demonstration is unusable; all the requests are still out then.
+            PlanError: If a plan is not out, holds no request, or comes twice; the same holds.
+            ValueError: If there is not one demonstration, or None, for each plan.
+        """
+        some = self.ledger.all_out(plans, shown, request=True)
+        usable = [
+            None if given is None else self._usable(given, running)
+            for running, given in zip(some, shown, strict=True)
+        ]
+        trouble: BaseException | None = None
         try:
-            self.learn_answer(plan, running, usable)
-            (policy,) = self.proposed([running])
-        except BaseException:
-            self.ledger.make_idle(running)
-            raise
-        following = self.issue(running, policy)
+            self.learn_answers(plans, some, usable)
+            policies = self.proposed(some)
+        except BaseException as error:
+            trouble = error
+        following = []
+        for i, (plan, running, given) in enumerate(zip(plans, some, usable, strict=True)):
+            self._emit(Answered(plan.id, given, None if seconds is None else seconds[i]))
+            if trouble is None:
+                following.append(self.issue(running, policies[i]))
+            else:
+                self.ledger.make_idle(running)
+        if trouble is not None:
+            raise trouble
         self.report_unwritten()
         return following
+
+    def _usable(self, given: Demonstration, running: Running) -> Demonstration:
+        mode = running.mode
+        assert mode.teacher is not None
+        needing = mode.name if mode.needs_policy else None
+        return demonstrations.checked(self.task, given, mode.teacher, needing=needing)
 
     def tell(self, plan: Plan, outcome: Outcome, *, seconds: float | None = None) -> Report:
         """Say what a plan's policy produced.
@@ -224,11 +248,7 @@ class Learner(Transitions, Answers):
             PlanError: If a plan is not out, holds a request, or comes twice; the same holds.
             ValueError: If there is not one outcome for each plan.
         """
-        if len(outcomes) != len(plans):
-            raise ValueError(f"{len(plans)} plans came with {len(outcomes)} outcomes")
-        some = [self.ledger.out(plan, request=False) for plan in plans]
-        if len(plans) > 1 and len({plan.id for plan in plans}) < len(plans):
-            raise PlanError("a plan comes twice in one batch; each is told once")
+        some = self.ledger.all_out(plans, outcomes, request=False)
         checked = self.task.check_outcomes(outcomes)
         trials = [Trial(p.policy, o, p.context) for p, o in zip(plans, checked, strict=True)]
         known = self.remember(some, trials)

@@ -27,16 +27,20 @@ class Remembered(NamedTuple):
 class Transitions(Openings):
     """How a learner's state changes by what it learns."""
 
-    def learn_answer(
-        self, plan: Plan, running: Running, demonstration: Demonstration | None
+    def learn_answers(
+        self,
+        plans: Sequence[Plan],
+        some: Sequence[Running],
+        demonstrations: Sequence[Demonstration | None],
     ) -> None:
-        """Take up a demonstration, or the goal chosen if there is none."""
-        status = ledger.EXPIRED if demonstration is None else ledger.ANSWERED
-        self.ledger.resolve(plan, status)
-        if demonstration is None:
-            running.mode = self.strategy.alone
-        running.episode.demonstration = demonstration
-        self._take_up([running])
+        """Take up demonstrations, or where there is none, the goal chosen."""
+        for plan, running, demonstration in zip(plans, some, demonstrations, strict=True):
+            if demonstration is None:
+                running.mode = self.strategy.alone
+            status = ledger.EXPIRED if demonstration is None else ledger.ANSWERED
+            self.ledger.resolve(plan, status)
+            running.episode.demonstration = demonstration
+        self._take_up(some)
 
     def remember(
         self, some: Sequence[Running], trials: Sequence[Trial]
@@ -93,7 +97,7 @@ class Transitions(Openings):
     def learn_end(self, plan: Plan, running: Running, how: Ending) -> None:
         """Resolve a plan that has no outcome."""
         if plan.request is not None:
-            self.learn_answer(plan, running, None)
+            self.learn_answers([plan], [running], [None])
             self.ledger.make_idle(running)
             return
         self.ledger.resolve(plan, _STATUS[how])

@@ -51,11 +51,15 @@ class PointColumn:
         return [self._objects[row] for row in rows.tolist()]
 
     def encoded(self, rows: IntArray | slice) -> FloatArray:
-        """Points of these rows scaled to the unit box, shape ``(n, dimension)``."""
+        """Points of these rows scaled to the unit box, shape ``(..., dimension)``."""
         if self._box is not None and self._vectors is not None:
             points = self._vectors.rows
-            some = points[rows] if isinstance(rows, slice) else points.take(rows, axis=0)
-            return self._box.encode(some)
+            if isinstance(rows, slice):
+                return self._box.encode(points[rows])
+            some: FloatArray = points.take(rows, axis=0)
+            some -= self._box.low  # as the box encodes, without room for copies
+            some /= self._box.range
+            return some
         chosen = (
             self._objects[rows] if isinstance(rows, slice) else [self._objects[i] for i in rows]
         )
@@ -154,7 +158,7 @@ class KindMemory:
         return index.query(policy, k)
 
     def encoded_policies(self, rows: IntArray | slice) -> FloatArray:
-        """The policies of these rows scaled to the unit box, shape ``(n, policy dimension)``."""
+        """The policies of these rows scaled to the unit box, shape ``(..., policy dimension)``."""
         trials = self.trials.rows
         return self._policies.encoded(
             trials[rows] if isinstance(rows, slice) else trials.take(rows)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from functools import partial
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -11,7 +12,7 @@ from numpy.typing import NDArray
 
 from sgim.outcome.gain_table import GainTable
 from sgim.outcome.interest import EpisodeReport
-from sgim.outcome.partition import Partition, Region
+from sgim.outcome.partition import BoolArray, Partition, Region
 from sgim.records import Goal
 from sgim.spaces import FloatArray, Space
 from sgim.streams import Streams
@@ -111,6 +112,8 @@ class ExpectedGain(Partition):
         self._recent = {
             kind: [deque[float](maxlen=kind_window) for _ in modes] for kind in self.spaces
         }
+        # The shares of each region's attempts by each mode, oldest first, a row a region.
+        self._attempted: list[list[list[float]]] = []
         self._priors = {kind: np.full(len(modes), float(prior)) for kind in self.spaces}
         for kind in self.spaces:
             self._enter(self.plant(kind, []))
@@ -121,6 +124,7 @@ class ExpectedGain(Partition):
         kind = self._kinds.index(region.kind)
         self._table.enter(row, kind, region.low[:d], region.high[:d])
         self._table.expect(row, self._priors[region.kind])
+        self._attempted[row:] = [[[] for _ in self.modes], *self._attempted[row + 1 :]]
 
     def gains(self) -> FloatArray:
         """The gain expected of a movement in every leaf by every mode, ``(leaves, modes)``."""
@@ -154,13 +158,17 @@ class ExpectedGain(Partition):
         self._priors[region.kind][mode] = (sum(recent) + self.confidence * self.prior) / (
             len(recent) + self.confidence
         )
+        shares = self._attempted[region.leaf]
+        shares[mode].append(share)
         changed = {mode}
         if len(region.records) > self.capacity:
-            cut = self.best_cut(region, region.records, _mean_gain)
+            cut = self.best_cut(region, region.records, partial(_gaps, region.records))
             if cut is not None:
                 self._split(region, *cut)
                 return
-            changed.add(region.records.pop(0).mode)
+            first = region.records.pop(0).mode
+            del shares[first][0]
+            changed.add(first)
         self._weigh(region, changed)
 
     def _split(self, region: Region, axis: int, cut: float) -> None:
@@ -169,21 +177,22 @@ class ExpectedGain(Partition):
             self._enter(child)
         self._table.lack[children[1].leaf] = self._table.lack[children[0].leaf]
         for attempt in region.records:
-            children[attempt.place[axis] > cut].records.append(attempt)
+            child = children[attempt.place[axis] > cut]
+            child.records.append(attempt)
+            self._attempted[child.leaf][attempt.mode].append(attempt.share)
         region.records = []
         for child in children:
             self._weigh(child, range(len(self.costs)))
 
     def _weigh(self, region: Region, modes: Iterable[int]) -> None:
         """Estimate what is lacking in a region, and the shares of these modes there."""
-        row, records = region.leaf, region.records
-        lately = records[-self.window :]
+        row, table, shares = region.leaf, self._table, self._attempted[region.leaf]
+        lately = region.records[-self.window :]
         if lately:
-            self._table.lack[row] = sum([a.lack for a in lately]) / len(lately)
+            table.lack[row] = sum([attempt.lack for attempt in lately]) / len(lately)
         for mode in modes:
-            shares = [a.share for a in records if a.mode == mode]
-            self._table.note(row, mode, shares[-self.window :])
-        self._table.expect(row, self._priors[region.kind])
+            table.note(row, mode, shares[mode][-self.window :])
+        table.expect(row, self._priors[region.kind])
 
     def choose(
         self, rng: np.random.Generator, modes: Sequence[str], context: Any
@@ -279,8 +288,13 @@ class ExpectedGain(Partition):
         return best
 
 
-def _mean_gain(attempts: Sequence[Attempt]) -> float:
-    return sum(a.lack * a.share for a in attempts) / len(attempts)
+def _gaps(attempts: Sequence[Attempt], below: BoolArray) -> FloatArray:
+    """How far apart the mean gains of two parts of the attempts are, for several ways to part."""
+    gains = np.array([attempt.lack * attempt.share for attempt in attempts])[:, None]
+    counts = below.sum(axis=0)
+    lower, upper = np.where(below, gains, 0.0).sum(axis=0), np.where(below, 0.0, gains).sum(axis=0)
+    gaps: FloatArray = np.abs(lower / counts - upper / (len(attempts) - counts))
+    return gaps
 
 
 def _kept_to_its_goal(report: EpisodeReport) -> bool:

@@ -110,35 +110,41 @@ class NearestModel:
         self._found: dict[int, tuple[Goal, Any, tuple[FloatArray, IntArray]]] = {}
         self._found_among = 0
         self._goal: tuple[Goal | None, Any, FloatArray] = (None, None, np.empty(0))
-        self._last: dict[int, tuple[Trial, dict[str, int]]] = {}
+        self._last: tuple[Sequence[Trial], dict[tuple[int, str], FloatArray]] = ((), {})
 
     def update(self, trial: Trial) -> None:
         """Remember the trial."""
         self.memory.add(trial)
         kinds = self.memory.kinds
-        self._last = {id(trial): (trial, {kind: len(kinds[kind]) - 1 for kind in trial.outcome})}
+        keys = {
+            (id(trial), kind): kinds[kind].keys.rows[-1]
+            for kind in trial.outcome
+            if kinds[kind].dimension is not None
+        }
+        self._last = (trial,), keys
 
     def learn_all(
         self, trials: Sequence[Trial], goals: Sequence[Goal | None], contexts: Sequence[Any]
     ) -> list[float | None]:
         """Remember the trials; for each, what `shown_by` says of it and its goal."""
         producing = self.memory.extend(trials)
-        self._last = {id(trial): (trial, {}) for trial in trials}
-        for kind, members in producing.items():
-            first = len(self.memory.kinds[kind]) - len(members)
-            for row, i in enumerate(members, start=first):
-                self._last[id(trials[i])][1][kind] = row
+        self._last = trials, {}
         shown: list[float | None] = [None if goal is None else -1.0 for goal in goals]
         for kind, members in producing.items():
-            aimed = [i for i in members if (goal := goals[i]) is not None and goal.kind == kind]
-            if not aimed:
+            memory = self.memory.kinds[kind]
+            if memory.dimension is None:
                 continue
-            points = [goal.point for i in aimed if (goal := goals[i]) is not None]
-            wanted = self.memory.keys(kind, points, [contexts[i] for i in aimed])
-            rows = [self._last[id(trials[i])][1][kind] for i in aimed]
-            offsets = self.memory.kinds[kind].keys.rows[rows] - wanted
-            for i, offset in zip(aimed, offsets, strict=True):
-                shown[i] = -min(1.0, math.sqrt(offset.dot(offset)))
+            keys = memory.keys.rows[-len(members) :]
+            for i, key in zip(members, keys, strict=True):
+                self._last[1][id(trials[i]), kind] = key
+            pairs = [(row, goals[i]) for row, i in enumerate(members)]
+            aimed = [(row, goal) for row, goal in pairs if goal is not None and goal.kind == kind]
+            if aimed:
+                rows = [row for row, _ in aimed]
+                where = [contexts[members[row]] for row in rows]
+                wanted = self.memory.keys(kind, [goal.point for _, goal in aimed], where)
+                for row, offset in zip(rows, keys[rows] - wanted, strict=True):
+                    shown[members[row]] = -min(1.0, math.sqrt(offset.dot(offset)))
         return shown
 
     def goal_key(self, goal: Goal, context: Any) -> FloatArray:
@@ -151,10 +157,9 @@ class NearestModel:
         """The key of what a trial produced of this kind, if it did."""
         if kind not in trial.outcome:
             return None
-        known = self._last.get(id(trial))
+        known = self._last[1].get((id(trial), kind))
         if known is not None:
-            key: FloatArray = self.memory.kinds[kind].keys.rows[known[1][kind]]
-            return key
+            return known
         return self.memory.key(kind, trial.outcome[kind], trial.context)
 
     def nearest(self, goal: Goal, context: Any) -> tuple[FloatArray, IntArray]:

@@ -155,7 +155,7 @@ class _Fold:
                 self.learner.learn_trial(plan, running, trial)
             case Answered():
                 plan, running = self._out(event.plan)
-                self.learner.learn_answer(plan, running, event.demonstration)
+                self.learner.learn_answers([plan], [running], [event.demonstration])
                 answered = True
             case Ended():
                 self.learner.learn_end(*self._out(event.plan), event.how)

@@ -7,7 +7,7 @@ import warnings
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any
 
 from sgim.environments.base import MinimalEnvironment
 from sgim.errors import JournalError, SgimError
@@ -19,8 +19,9 @@ from sgim.runs.continuation import keep_journal, session_facts
 from sgim.runs.interrupt import InterruptWish
 from sgim.runs.journal import Journal
 from sgim.runs.journal_reading import first_difference
+from sgim.runs.observer import Observer
 from sgim.runs.replay import Replayed, iterate_trials
-from sgim.runs.telling import tell_together
+from sgim.runs.telling import answer_together, tell_together
 from sgim.runs.world import Executed, World
 from sgim.streams import Streams
 from sgim.teachers import Teacher
@@ -32,26 +33,6 @@ class RunError(SgimError):
 
 class Interrupted(SgimError):  # noqa: N818 - not an error of the run
     """The user asked the run to stop; everything told is in the journal."""
-
-
-class Observer(Protocol):
-    """Is told how a run goes, to show it."""
-
-    def started(self, run: Run, target: int) -> None:
-        """The run goes on until ``target`` movements."""
-        ...
-
-    def moved(self, run: Run) -> None:
-        """Some movements were made."""
-        ...
-
-    def evaluated(self, run: Run, evaluation: Evaluated) -> None:
-        """The repertoire was measured."""
-        ...
-
-    def ended(self, run: Run) -> None:
-        """The run stopped, finished or not."""
-        ...
 
 
 class Run:
@@ -219,8 +200,12 @@ class Run:
             return
         if n > 0:
             learner.ask_batch(n, world.contexts(first, n))
-        for plan in learner.pending:
-            if plan.request is not None:
+        requests = [plan for plan in learner.pending if plan.request is not None]
+        if len(requests) > 1 and answer_together(learner, requests, world):
+            for plan in requests:
+                self._failures[_teacher_of(plan)] = 0
+        else:
+            for plan in requests:
                 self._answered(plan)
         plans = learner.pending
         executed = list(zip(plans, world.execute_all(plans), strict=True))
@@ -239,8 +224,7 @@ class Run:
             raise given_up
 
     def _answered(self, plan: Plan) -> Plan:
-        assert plan.request is not None
-        teacher = f"teacher {plan.request.teacher!r}"
+        teacher = _teacher_of(plan)
         try:
             following = self.learner.answer(plan, self.world.demonstration(plan))
             self._failures[teacher] = 0
@@ -316,6 +300,11 @@ class Run:
 
     def __exit__(self, *exception: object) -> None:
         self.close()
+
+
+def _teacher_of(plan: Plan) -> str:
+    assert plan.request is not None
+    return f"teacher {plan.request.teacher!r}"
 
 
 def _checked_teachers(teachers: Mapping[str, Teacher] | None) -> dict[str, Teacher]:

@@ -1,4 +1,4 @@
-"""Telling a learner at once of what was carried out side by side."""
+"""Telling a learner at once what came of its plans."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import cast
 from sgim.errors import JournalError, SgimError
 from sgim.learner import Learner
 from sgim.records import Outcome, Plan
-from sgim.runs.world import Executed
+from sgim.runs.world import Executed, World
 
 
 def tell_together(learner: Learner, executed: Sequence[tuple[Plan, Executed]]) -> list[Outcome]:
@@ -33,3 +33,21 @@ def tell_together(learner: Learner, executed: Sequence[tuple[Plan, Executed]]) -
             raise
         return []
     return outcomes
+
+
+def answer_together(learner: Learner, plans: Sequence[Plan], world: World) -> bool:
+    """Let the teachers answer requests, and give the learner their answers at once.
+
+    Returns:
+        Whether that went well. If not, nothing was answered: to ask one by one shows who failed.
+    """
+    try:
+        shown = [world.demonstration(plan) for plan in plans]
+        learner.answer_batch(plans, shown)
+    except JournalError:
+        raise
+    except Exception:
+        if plans[0].id not in learner.ledger.plans:
+            raise
+        return False
+    return True
