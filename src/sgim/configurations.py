@@ -35,7 +35,8 @@ class Configuration(MixtureSettings):
 
     Attributes:
         name: ``"thesis"``, ``"modern"``, or a name of one's own.
-        search: The goal-directed explorer, ``"nelder-mead"`` or ``"local"``.
+        search: The goal-directed explorer: ``"nelder-mead"``, ``"local"``, ``"pi2"``, or
+            ``"cma-es"``, which needs the extra ``cma``.
         search_movements: Movements of an autonomous or emulation episode.
         mimicry_movements: Movements of a mimicry episode (nIm of algorithm 3.2.1).
         mimicry_radius: ε of algorithm 3.2.1, in the policy's own units.
@@ -77,7 +78,7 @@ class Configuration(MixtureSettings):
     """
 
     name: str
-    search: Literal["nelder-mead", "local"]
+    search: Literal["nelder-mead", "local", "cma-es", "pi2"]
     search_movements: int = 20
     mimicry_movements: int = 10
     mimicry_radius: float = 0.05

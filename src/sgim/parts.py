@@ -19,12 +19,16 @@ from sgim.outcome import (
 )
 from sgim.policy import (
     CompetenceModel,
+    CovarianceAdaptation,
     Explorer,
     LocalSearch,
+    MakeDistribution,
     Mimicry,
     MixtureModel,
     NearestModel,
     NelderMeadSearch,
+    PathIntegral,
+    PopulationSearch,
 )
 from sgim.strategy import DemonstrationsFirst, JointChoice, Mode, News, Strategy
 from sgim.streams import Streams
@@ -33,6 +37,8 @@ from sgim.task import Task
 Teachers = str | Sequence[str]
 MakeMap = Callable[[Mapping[str, float]], InterestMap]
 Given = str | Configuration
+
+_DISTRIBUTIONS: dict[str, MakeDistribution] = {"cma-es": CovarianceAdaptation, "pi2": PathIntegral}
 
 
 class Parts:
@@ -89,6 +95,12 @@ class Parts:
         config = self.config
         if config.search == "nelder-mead":
             return NelderMeadSearch(self.model)
+        if config.search in _DISTRIBUTIONS:
+            return PopulationSearch(
+                self.model,
+                _DISTRIBUTIONS[config.search],
+                reached_share=config.reached_share,
+            )
         return LocalSearch(
             self.model, budget=config.search_movements, reached_share=config.reached_share
         )

@@ -29,6 +29,7 @@ from sgim.policy.mixture_model import Learning, MixtureModel
 from sgim.policy.mixture_search import AroundRest, MixtureSearch
 from sgim.policy.model import NearestModel
 from sgim.policy.nelder_mead import NelderMeadSearch
+from sgim.policy.population import CovarianceAdaptation, PathIntegral, PopulationSearch
 from sgim.policy.simple import Mimicry, NoisyNearest, RandomPolicies
 from sgim.spaces import Box, Choices, Space
 from sgim.streams import Streams
@@ -204,6 +205,8 @@ EXPLORERS: Mapping[str, Callable[[NearestModel], Explorer]] = {
     "Nelder-Mead": NelderMeadSearch,
     "local search": LocalSearch,
     "local search, large variations": lambda model: LocalSearch(model, variation=(1.0, 30.0)),
+    "CMA-ES": lambda model: PopulationSearch(model, CovarianceAdaptation),
+    "PI2": lambda model: PopulationSearch(model, PathIntegral),
     "noise around the nearest": NoisyNearest,
     "noise from the first trial on": lambda model: NoisyNearest(model, bootstrap=0),
     "mimicry": lambda model: Mimicry(model.memory.task.policy_space, 0.3),
