@@ -11,6 +11,7 @@ import numpy as np
 from sgim.claims.measures import Unit
 from sgim.environments.vocal.classes import CLASSES
 from sgim.environments.vocal.languages import ambient_language
+from sgim.environments.vocal.perception import Sounds
 from sgim.experiments.vocal_history import VocalHistory, VocalRun
 from sgim.experiments.vocal_stages import in_order, stages_of
 from sgim.runs.measured import MeasuredRun
@@ -264,7 +265,7 @@ class Mistaken:
 
     def _mistaken(
         self,
-        sounds: Mapping[tuple[int, int | None], FloatArray],
+        sounds: Mapping[tuple[int, int | None], Sounds],
         seed: int | None,
         seeds: Sequence[int | None],
     ) -> float:
@@ -298,17 +299,15 @@ def emulated_competences(history: VocalHistory, parts: int) -> FloatArray:
     return means
 
 
-def _part(history: VocalHistory, part: Part) -> FloatArray:
+def _part(history: VocalHistory, part: Part) -> Sounds:
     count = max(1, len(history) // TENTHS)
     return history.sounds[:count] if part == "early" else history.sounds[-count:]
 
 
-def _some(history: VocalHistory, part: Part) -> FloatArray:
+def _some(history: VocalHistory, part: Part) -> Sounds:
     """500 sounds of a part at most, evenly over it."""
     sounds = _part(history, part)
-    chosen: FloatArray = sounds[
-        np.linspace(0, len(sounds) - 1, min(_SOUNDS, len(sounds))).astype(int)
-    ]
+    chosen: Sounds = sounds[np.linspace(0, len(sounds) - 1, min(_SOUNDS, len(sounds))).astype(int)]
     return chosen
 
 

@@ -68,7 +68,9 @@ class Experiment:
         """
         if learner is None:
             teacher = self.default_teacher if teacher is None else teacher
-            learner = self.taught if self.teachers and teacher != NO_TEACHER else self.alone
+            if teacher == NO_TEACHER:
+                return self.alone
+            learner = self.taught if self.teachers else self.alone
         return learner if teacher is None else f"{learner.partition(':')[0]}:{teacher}"
 
     def learner(

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from sgim.environments.vocal.classes import CLASSES, classes, types
 from sgim.environments.vocal.motor import MOTORS
-from sgim.environments.vocal.perception import SOUND
+from sgim.environments.vocal.perception import SOUND, Sounds
 from sgim.errors import JournalError
 from sgim.runs.journal import Journal
 from sgim.runs.summary import RecordedRun, read_run
@@ -25,15 +25,15 @@ class VocalHistory:
     """The vocalisations of a run in the order they were told.
 
     Attributes:
-        sounds: What was heard, shape ``(n, 6)``.
+        sounds: What was heard, in single precision to keep many runs, shape ``(n, 6)``.
         goals: What was pursued, shape ``(n, 6)``; NaN where nothing was.
         names: Names of modes.
         modes: The mode of each vocalisation, a place in ``names``, shape ``(n,)``; -1 where its
             episode had not ended when the run was read.
     """
 
-    sounds: FloatArray
-    goals: FloatArray
+    sounds: Sounds
+    goals: Sounds
     names: tuple[str, ...]
     modes: NDArray[np.int64]
 
@@ -60,7 +60,8 @@ class VocalHistory:
     @cached_property
     def competences(self) -> FloatArray:
         """e^(−distance from goal to sound) of each (section 5.2.3); NaN without a goal."""
-        found: FloatArray = np.exp(-np.linalg.norm(self.sounds - self.goals, axis=1))
+        apart = self.sounds - self.goals.astype(np.float64)
+        found: FloatArray = np.exp(-np.linalg.norm(apart, axis=1))
         return found
 
     def of_mode(self, first_word: str) -> NDArray[np.bool_]:
@@ -136,8 +137,8 @@ def read_history(path: str | Path) -> VocalHistory:
     names = sorted({str(name) for name, _ in ends if name is not None})
     code: dict[str | None, int] = {name: i for i, name in enumerate(names)}
     return VocalHistory(
-        _table([point for _, point in told], len(SOUND)),
-        _table([point or aimless for _, point in ends], len(SOUND)),
+        _table([point for _, point in told], len(SOUND)).astype(np.float32),
+        _table([point or aimless for _, point in ends], len(SOUND)).astype(np.float32),
         tuple(names),
         np.array([code.get(name, _NO_MODE) for name, _ in ends], dtype=np.int64),
     )

@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from sgim.environments.vocal.motor import MOTORS
+from sgim.environments.vocal.perception import Sounds
 from sgim.experiments.vocal_history import VocalRun, read_policies
 from sgim.experiments.vocal_stages import stages_of
 from sgim.figures.style import new_figure
-from sgim.spaces import FloatArray
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -36,7 +36,7 @@ def vocal_densities(run: VocalRun) -> Figure:
     """
     policies = read_policies(run.path)
     history = run.history
-    groups: list[tuple[str, list[tuple[str, tuple[float, float], FloatArray]]]] = [
+    groups: list[tuple[str, list[tuple[str, tuple[float, float], Sounds]]]] = [
         ("goals", [(n, span, history.goals[:, [i, i + 1]]) for n, i, span in _HEARD]),
         (
             "commands",
@@ -47,7 +47,13 @@ def vocal_densities(run: VocalRun) -> Figure:
     rows = sum(len(members) for _, members in groups)
     boundaries = [stage.start for stage in stages_of(history)[1:]]
     figure = new_figure(8.0, 0.6 + 0.62 * rows)
-    panels = figure.subplots(rows, 2, sharex=True)
+    figure.set_layout_engine("none")  # so many panels take long to lay out
+    panels = figure.subplots(
+        rows,
+        2,
+        sharex=True,
+        gridspec_kw={"left": 0.16, "right": 0.95, "top": 0.94, "bottom": 0.045, "hspace": 0.35},
+    )
     row = 0
     for group, members in groups:
         for name, span, values in members:
@@ -69,7 +75,7 @@ def vocal_densities(run: VocalRun) -> Figure:
     return figure
 
 
-def _draw_density(axes: Axes, values: FloatArray, span: tuple[float, float]) -> None:
+def _draw_density(axes: Axes, values: Sounds, span: tuple[float, float]) -> None:
     from scipy.ndimage import gaussian_filter
 
     times = np.arange(len(values))

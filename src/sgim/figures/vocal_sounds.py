@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from sgim.environments.vocal.languages import ambient_language
-from sgim.environments.vocal.perception import SOUND
+from sgim.environments.vocal.perception import SOUND, Sounds
 from sgim.experiments.vocal_history import VocalRun
 from sgim.figures.style import OKABE_ITO, new_figure, tidy
 from sgim.spaces import FloatArray
@@ -53,7 +53,7 @@ def vocal_sounds(run: VocalRun) -> Figure:
 
 
 def _draw_plane(
-    axes: Axes, sounds: FloatArray, plane: tuple[int, int], ambient: FloatArray | None
+    axes: Axes, sounds: Sounds, plane: tuple[int, int], ambient: FloatArray | None
 ) -> None:
     every = -(-len(sounds) // MOST_POINTS)
     x, y = (sounds[::every, i] for i in plane)

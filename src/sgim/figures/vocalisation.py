@@ -65,7 +65,8 @@ def _draw_motors(axes: Axes, spoken: Vocalisation, commands: FloatArray) -> None
     axes.set_title("A  positions, and commands (circles)")
     axes.set_xlabel("time (s)")
     axes.set_xlim(0, DURATION + 0.01)
-    axes.legend(fontsize=7, frameon=False, ncols=2, loc="best")
+    if axes.get_legend_handles_labels()[0]:
+        axes.legend(fontsize=7, frameon=False, ncols=2, loc="best")
     tidy(axes)
 
 

@@ -5,8 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from sgim.environments.vocal.perception import SOUND
-from sgim.spaces import FloatArray
+from sgim.environments.vocal.perception import SOUND, Sounds
 
 PHONES = ("N", "C", "V")
 """None, heard less than a tenth of a window; consonant; vowel, heard more than nine tenths."""
@@ -20,7 +19,7 @@ CLASSES = ("no phonation", "unarticulated", "articulated")
 _BOUNDS = (0.1, 0.9)
 
 
-def phones(sounds: FloatArray) -> NDArray[np.int64]:
+def phones(sounds: Sounds) -> NDArray[np.int64]:
     """The phones of sounds, as places in `PHONES`.
 
     Args:
@@ -35,7 +34,7 @@ def phones(sounds: FloatArray) -> NDArray[np.int64]:
     return found
 
 
-def types(sounds: FloatArray) -> NDArray[np.int64]:
+def types(sounds: Sounds) -> NDArray[np.int64]:
     """The types of sounds, as places in `TYPES`, shape ``(n,)``."""
     number = {name: i for i, name in enumerate(TYPES)}
     table = np.array([[number[first + second] for second in PHONES] for first in PHONES])
@@ -44,7 +43,7 @@ def types(sounds: FloatArray) -> NDArray[np.int64]:
     return found
 
 
-def classes(sounds: FloatArray) -> NDArray[np.int64]:
+def classes(sounds: Sounds) -> NDArray[np.int64]:
     """The classes of sounds, as places in `CLASSES`, shape ``(n,)``."""
     heard: NDArray[np.int64] = (phones(sounds) > 0).sum(axis=1)
     return heard

@@ -2,9 +2,15 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
+from numpy.typing import NDArray
 
 from sgim.spaces import FloatArray
+
+Sounds = NDArray[np.floating[Any]]
+"""Sounds, shape ``(n, 6)``, in double or single precision."""
 
 WINDOWS = ((0.25, 0.40), (0.65, 0.80))
 """When one listens, in s."""
