@@ -12,7 +12,7 @@ from sgim.configurations import Configuration
 from sgim.environments.base import MinimalEnvironment
 from sgim.errors import JournalError, SgimError, UnknownNameError, unknown
 from sgim.learner import Learner
-from sgim.runs.benchmark import Benchmark
+from sgim.runs.benchmark import Measures
 from sgim.runs.journal import Journal
 from sgim.runs.journal_reading import header_of
 from sgim.runs.run import Run
@@ -32,23 +32,29 @@ class Experiment:
         make_teachers: Makes the teachers.
         unit: Unit of the benchmark's errors.
         movements: How many movements a run has by default.
+        evaluate_every: Movements between evaluations by default; None for a share of the run.
         variant_of: Name of the experiment of which this is a variant, if it is one.
     """
 
     name: str
     summary: str
     environment: Callable[[], MinimalEnvironment]
-    benchmark: Callable[[MinimalEnvironment], Benchmark]
+    benchmark: Callable[[MinimalEnvironment], Measures]
     teachers: Mapping[str, str] = field(default_factory=dict)
     make_teachers: Callable[[], Mapping[str, Teacher]] = dict
     unit: str = "share of the outcome space"
     movements: int = 8000
+    evaluate_every: int | None = None
     variant_of: str | None = None
 
     @property
     def default_learner(self) -> str:
         """The learner that a run has when none is named."""
         return "sgim-acts" if self.teachers else "sagg-riac"
+
+    def evaluation_interval(self, movements: int) -> int:
+        """Movements between the evaluations of a run of so many movements by default."""
+        return self.evaluate_every or evaluation_interval(movements)
 
     def learner(
         self, name: str, *, configuration: str | Configuration = "modern", seed: int = 0
@@ -61,15 +67,16 @@ class Experiment:
                 way round; or if it needs one teacher and that is not named.
         """
         algorithm, colon, teacher = name.partition(":")
-        if algorithm not in algorithms.ALGORITHMS:
-            raise unknown("learner", algorithm, algorithms.ALGORITHMS)
+        task = self.environment().task
+        known = algorithms.algorithms_for(task)
+        if algorithm not in known:
+            raise unknown("learner", algorithm, known)
         if colon and teacher not in self.teachers:
             if not self.teachers:
                 raise SgimError(f"{self.name} has no teachers; leave {teacher!r} out")
             raise unknown(f"teacher of {self.name}", teacher, self.teachers)
         chosen = configurations.configuration_of(configuration)
         teachers: Sequence[str] = [teacher] if colon else list(self.teachers)
-        task = self.environment().task
         try:
             learner = algorithms.make(algorithm, task, teachers, configuration=chosen, seed=seed)
         except UnknownNameError:

@@ -1,7 +1,7 @@
 """The middle level: which goal to aim at, by competence, progress and interest."""
 
 from sgim.outcome.expected_gain import ExpectedGain
-from sgim.outcome.interest import EpisodeReport, InterestMap, UniformGoals
+from sgim.outcome.interest import EpisodeReport, Favourite, InterestMap, UniformGoals
 from sgim.outcome.progress import CompetenceChange, InterestMeasure, MeanProgress, Record
 from sgim.outcome.region_tree import RegionTree
 from sgim.outcome.table import InterestTable
@@ -10,6 +10,7 @@ __all__ = [
     "CompetenceChange",
     "EpisodeReport",
     "ExpectedGain",
+    "Favourite",
     "InterestMap",
     "InterestMeasure",
     "InterestTable",

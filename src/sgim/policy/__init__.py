@@ -4,7 +4,7 @@ from sgim.policy.explorer import Episode, Explorer
 from sgim.policy.local_search import LocalSearch
 from sgim.policy.model import CompetenceModel, InverseModel, NearestModel, NoAnswerError
 from sgim.policy.nelder_mead import NelderMeadSearch
-from sgim.policy.simple import Mimicry, NoisyNearest, RandomPolicies
+from sgim.policy.simple import Mimicry, NoisyNearest, PolicyOfLabel, RandomPolicies
 
 __all__ = [
     "CompetenceModel",
@@ -17,5 +17,6 @@ __all__ = [
     "NelderMeadSearch",
     "NoAnswerError",
     "NoisyNearest",
+    "PolicyOfLabel",
     "RandomPolicies",
 ]

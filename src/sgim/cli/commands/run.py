@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Literal
 
 from tyro.conf import Positional, arg
 
@@ -11,7 +11,6 @@ from sgim.cli.going import go, say_finished
 from sgim.cli.text import demonstrations_every, shell
 from sgim.errors import JournalError, SgimError
 from sgim.experiments import experiment as find_experiment
-from sgim.experiments.experiment import evaluation_interval
 from sgim.runs.summary import read_run
 
 
@@ -22,6 +21,9 @@ def command(
         arg(metavar="NAME", help_behavior_hint="(default: sgim-acts, or sagg-riac if no teachers)"),
     ] = None,
     teacher: Annotated[str | None, arg(metavar="NAME", help_behavior_hint="(default: all)")] = None,
+    caregiver: Annotated[
+        Literal["unbiased", "biased"] | None, arg(help_behavior_hint="(default: unbiased)")
+    ] = None,
     configuration: Annotated[str, arg(metavar="NAME")] = "modern",
     every: Annotated[
         int | None,
@@ -58,6 +60,7 @@ def command(
         experiment: Name of the experiment; sgim list has them.
         learner: Name of the learner; sgim list has them.
         teacher: The only teacher to ask; mimicry:T1 as learner says the same.
+        caregiver: Who is asked in the experiment objects; objects-biased as experiment says biased.
         configuration: The learner's constants: modern or thesis.
         every: Movements from one demonstration to the next, for sgim-d and imitation.
         seed: Of all random numbers; the same seed gives the same run.
@@ -67,7 +70,7 @@ def command(
         evaluate_every: Movements between evaluations.
         warm_start: Journal of another run, whose trials are observed first.
     """
-    world = find_experiment(experiment)
+    world = find_experiment(experiment, caregiver)
     configuration = demonstrations_every(configuration, every)
     name = learner or world.default_learner
     if teacher is not None:
@@ -103,7 +106,7 @@ def command(
         configuration=configuration,
         seed=seed,
         batch=batch,
-        evaluate_every=evaluate_every or evaluation_interval(target),
+        evaluate_every=evaluate_every or world.evaluation_interval(target),
         warm_start=warm_start,
     )
     return go(run, path, target)

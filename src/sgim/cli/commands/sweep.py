@@ -11,7 +11,6 @@ from tyro.conf import Positional, arg
 from sgim.cli.text import demonstrations_every, shell
 from sgim.errors import SgimError
 from sgim.experiments import experiment as find_experiment
-from sgim.experiments.experiment import evaluation_interval
 from sgim.runs.progress import SweepProgress
 from sgim.runs.run import Interrupted
 from sgim.runs.sweep import SweptRun, sweep
@@ -76,7 +75,7 @@ def command(
                 configuration=configuration,
                 movements=target,
                 batch=batch,
-                evaluate_every=evaluate_every or evaluation_interval(target),
+                evaluate_every=evaluate_every or world.evaluation_interval(target),
                 jobs=jobs,
                 out=out,
                 on_end=shown.ended,

@@ -1,0 +1,55 @@
+"""The pictures by which recognition is measured: 64 of each toy, kept as features."""
+
+from __future__ import annotations
+
+from functools import cache
+from importlib.resources import files
+
+import numpy as np
+
+from sgim.environments.objects.table import ToyTable
+from sgim.errors import SgimError
+from sgim.recognition.features import FEATURES, Features
+from sgim.streams import Streams
+
+PICTURES_FILE = "objects_pictures.npz"
+EACH = 64
+_SEED = 20_261_124
+
+
+def make_pictures(table: ToyTable, seed: int = _SEED, each: int = EACH) -> dict[str, list[Features]]:
+    """Drop each toy turned over anyhow, and look at it, as often as asked.
+
+    The streams are the pictures' own, so that no learner meets the same pictures.
+
+    Args:
+        table: Where.
+        seed: Of the streams.
+        each: Pictures of each toy.
+    """
+    streams, made = Streams(seed), {}
+    for toy in table.toys.labels:
+        rngs = [streams(f"pictures/{toy}", number) for number in range(each)]
+        views = [table.seen(toy, table.moved(toy, "lift", rng), rng)["view"] for rng in rngs]
+        made[toy] = [Features.of(view) for view in views]
+    return made
+
+
+@cache
+def kept_pictures() -> dict[str, list[Features]]:
+    """The pictures that come with the package, by their features.
+
+    Raises:
+        SgimError: If they are missing.
+    """
+    resource = files("sgim.environments") / "data" / PICTURES_FILE
+    if not resource.is_file():
+        raise SgimError(f"the package has no {PICTURES_FILE} in sgim/environments/data")
+    kept: dict[str, list[Features]] = {}
+    with resource.open("rb") as file, np.load(file) as arrays:
+        packed, lengths, toys = arrays["packed"].tobytes(), arrays["lengths"], arrays["toys"]
+    start = 0
+    for toy, length in zip(toys.tolist(), lengths.tolist(), strict=True):
+        kept.setdefault(toy, []).append(Features.of(FEATURES.unpack(packed[start : start + length])))
+        start += length
+    return kept
