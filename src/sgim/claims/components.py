@@ -7,7 +7,7 @@ from typing import Any, Literal
 
 import numpy as np
 
-from sgim.claims.measures import Measure, Unit
+from sgim.claims.measures import Loss, Measure, Unit
 from sgim.claims.world import World
 from sgim.runs.contrasts import common_seeds
 from sgim.spaces import FloatArray
@@ -64,7 +64,9 @@ class Component:
     @property
     def learners(self) -> list[str]:
         """Whose runs it needs."""
-        return [m.learner for m in (self.one, self.other) if not isinstance(m, float)]
+        measures = [m for m in (self.one, self.other) if not isinstance(m, float)]
+        pairs = [(m.learner, m.other) if isinstance(m, Loss) else (m.learner,) for m in measures]
+        return [learner for pair in pairs for learner in pair]
 
     @property
     def margin(self) -> float | None:

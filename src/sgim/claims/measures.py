@@ -87,6 +87,31 @@ class Error:
 
 
 @dataclass(frozen=True)
+class Loss:
+    """By how much the final error of a learner is above that of another, seed by seed.
+
+    Attributes:
+        learner: Whose error.
+        other: Above whose.
+    """
+
+    learner: str
+    other: str
+
+    unit: ClassVar[Unit] = "share"
+    of_choices: ClassVar[bool] = False
+
+    @property
+    def what(self) -> str:
+        """In words."""
+        return f"total error above that of {self.other}"
+
+    def of(self, run: MeasuredRun, movements: int) -> float:
+        """The error of one of the two runs, of which `World.values` takes the difference."""
+        return Error(self.learner).of(run, movements)
+
+
+@dataclass(frozen=True)
 class Episodes:
     """Which episodes: those that agree with all that is given.
 

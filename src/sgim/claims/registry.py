@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from sgim.claims.claim import Chapter
 from sgim.claims.hockey import HOCKEY
+from sgim.claims.objects import OBJECTS
 from sgim.claims.throwing import THROWING
 from sgim.errors import unknown
 
-CHAPTERS = {chapter.name: chapter for chapter in (THROWING, HOCKEY)}
+CHAPTERS = {chapter.name: chapter for chapter in (OBJECTS, THROWING, HOCKEY)}
 
 
 def chapter(name: str) -> Chapter:

@@ -6,7 +6,7 @@ from collections.abc import Container, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from sgim.claims.measures import Measure
+from sgim.claims.measures import Loss, Measure
 from sgim.runs.comparable import select
 from sgim.runs.measured import MeasuredRun, read_measured
 from sgim.runs.summary import read_run
@@ -41,9 +41,14 @@ class World:
         return self.configuration.partition(",")[2]
 
     def values(self, measure: Measure) -> dict[int | None, float]:
-        """The measure of each run of its learner, by seed."""
+        """The measure of each run of its learner, by seed; a `Loss`, of each pair of runs."""
         runs = self.groups[measure.learner]
-        return {run.seed: measure.of(run, self.movements) for run in runs}
+        values = {run.seed: measure.of(run, self.movements) for run in runs}
+        if isinstance(measure, Loss):
+            others = self.groups[measure.other]
+            less = {run.seed: measure.of(run, self.movements) for run in others}
+            return {seed: x - less[seed] for seed, x in values.items() if seed in less}
+        return values
 
 
 def base_of(configuration: str) -> str:

@@ -30,6 +30,7 @@ class Experiment:
         benchmark: Makes the benchmark for a world.
         teachers: Teacher's name → one line that says what it shows.
         make_teachers: Makes the teachers.
+        asked: The teachers of a learner for which none is named; all if None.
         unit: Unit of the benchmark's errors.
         movements: How many movements a run has by default.
         evaluate_every: Movements between evaluations by default; None for a share of the run.
@@ -42,6 +43,7 @@ class Experiment:
     benchmark: Callable[[MinimalEnvironment], Measures]
     teachers: Mapping[str, str] = field(default_factory=dict)
     make_teachers: Callable[[], Mapping[str, Teacher]] = dict
+    asked: Sequence[str] | None = None
     unit: str = "share of the outcome space"
     movements: int = 8000
     evaluate_every: int | None = None
@@ -76,7 +78,8 @@ class Experiment:
                 raise SgimError(f"{self.name} has no teachers; leave {teacher!r} out")
             raise unknown(f"teacher of {self.name}", teacher, self.teachers)
         chosen = configurations.configuration_of(configuration)
-        teachers: Sequence[str] = [teacher] if colon else list(self.teachers)
+        usual = list(self.teachers if self.asked is None else self.asked)
+        teachers: Sequence[str] = [teacher] if colon else usual
         try:
             learner = algorithms.make(algorithm, task, teachers, configuration=chosen, seed=seed)
         except UnknownNameError:

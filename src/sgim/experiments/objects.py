@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from functools import cache, partial
-from typing import Literal
+from collections.abc import Mapping
+from functools import cache
 
 from sgim.environments.base import MinimalEnvironment
 from sgim.environments.objects import CAREGIVERS, ToyTable, caregivers, kept_pictures
@@ -25,23 +25,19 @@ def _benchmark(environment: MinimalEnvironment) -> RecognitionBenchmark:
     return RecognitionBenchmark(kept_pictures())
 
 
-def _teachers(bias: Literal["unbiased", "biased"]) -> dict[str, Teacher]:
-    return dict(caregivers(_table(), bias))
+def _teachers() -> Mapping[str, Teacher]:
+    return caregivers(_table())
 
 
-def _objects(bias: Literal["unbiased", "biased"]) -> Experiment:
-    return Experiment(
-        name="objects" if bias == "unbiased" else f"objects-{bias}",
-        summary=f"Recognise toys by manipulating them (chapter 2); the caregiver is {bias}.",
-        environment=_table,
-        benchmark=_benchmark,
-        teachers={"caregiver": CAREGIVERS[bias]},
-        make_teachers=partial(_teachers, bias),
-        unit="share of pictures not recognised",
-        movements=PRESENTATIONS + EPISODES,
-        evaluate_every=1,
-        variant_of=None if bias == "unbiased" else "objects",
-    )
-
-
-OBJECTS = [_objects("unbiased"), _objects("biased")]
+OBJECTS = Experiment(
+    name="objects",
+    summary="Recognise toys by manipulating them, or asking a caregiver to (chapter 2).",
+    environment=_table,
+    benchmark=_benchmark,
+    teachers=CAREGIVERS,
+    make_teachers=_teachers,
+    asked=("unbiased",),
+    unit="share of pictures not recognised",
+    movements=PRESENTATIONS + EPISODES,
+    evaluate_every=1,
+)

@@ -9,7 +9,7 @@ from sgim.environments.base import MinimalEnvironment
 from sgim.environments.benchmark_goals import hockey_goals, reachable_goals
 from sgim.environments.hockey import AirHockey
 from sgim.environments.hockey_teacher import hockey_teachers
-from sgim.errors import SgimError, unknown
+from sgim.errors import unknown
 from sgim.experiments.experiment import Experiment
 from sgim.experiments.fishing import FISHING
 from sgim.experiments.objects import OBJECTS
@@ -50,13 +50,6 @@ HOCKEY = Experiment(
     make_teachers=hockey_teachers,
 )
 
-CAREGIVEN = {
-    ("objects", "unbiased"): "objects",
-    ("objects", "biased"): "objects-biased",
-    ("objects-biased", "biased"): "objects-biased",
-}
-"""Experiment and caregiver → the experiment with that caregiver."""
-
 EXPERIMENTS = {
     e.name: e
     for e in [
@@ -64,30 +57,18 @@ EXPERIMENTS = {
         *THROWING_VARIANTS,
         HOCKEY,
         *FISHING,
-        *OBJECTS,
+        OBJECTS,
         *(_arm(name) for name in ARMS),
     ]
 }
 
 
-def experiment(name: str, caregiver: str | None = None) -> Experiment:
+def experiment(name: str) -> Experiment:
     """The experiment of this name.
-
-    Args:
-        name: Its name.
-        caregiver: Of the variants of ``objects``, the one with this caregiver.
 
     Raises:
         UnknownNameError: If there is none; the message has the nearest name.
-        SgimError: If a caregiver is named for an experiment without one.
     """
     if name not in EXPERIMENTS:
         raise unknown("experiment", name, EXPERIMENTS)
-    if caregiver is None:
-        return EXPERIMENTS[name]
-    if (name, caregiver) not in CAREGIVEN:
-        known = ", ".join(dict.fromkeys(experiment for experiment, _ in CAREGIVEN))
-        raise SgimError(
-            f"{name} has no {caregiver} caregiver to be named; leave it out, or use it with {known}"
-        )
-    return EXPERIMENTS[CAREGIVEN[name, caregiver]]
+    return EXPERIMENTS[name]

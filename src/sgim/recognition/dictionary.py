@@ -31,6 +31,17 @@ class Dictionary:
         """The words, oldest first, shape ``(n, dimension)``."""
         return self._words[: self._count]
 
+    def restore(self, words: Float32) -> None:
+        """Have these words instead, shape ``(n, dimension)``.
+
+        Raises:
+            ValueError: If they are of another dimension.
+        """
+        if words.ndim != 2 or words.shape[1] != self._words.shape[1]:
+            raise ValueError(f"words have shape {words.shape}, expected (n, {self._words.shape[1]})")
+        self._words = np.concatenate((words.astype(np.float32), self._words[:1]))
+        self._count = len(words)
+
     def add(self, vectors: Float32) -> NDArray[np.intp]:
         """Take in vectors, one after the other, and give the word of each, shape ``(n,)``."""
         for vector in vectors:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 
@@ -110,6 +111,25 @@ class Recogniser:
             NothingLearnedError: If nothing has been learned.
         """
         return self.recognise_all(self.gallery([self._features(seen)]))[0]
+
+    def save(self, path: str | Path) -> None:
+        """Write all that has been learned to a file, for `load`; one that exists is replaced."""
+        from sgim.recognition.saving import save
+
+        save(self, path)
+
+    @staticmethod
+    def load(path: str | Path) -> Recogniser:
+        """Make a recogniser again from the file that `save` wrote.
+
+        Raises:
+            SavedRecogniserError: If it is no recogniser, is damaged, or was written by a newer
+                version.
+            OSError: If it cannot be read.
+        """
+        from sgim.recognition.saving import load
+
+        return load(path)
 
     def gallery(self, features: Sequence[Features]) -> Gallery:
         """Keep the features of pictures, to recognise them again and again."""

@@ -2,25 +2,10 @@
 
 from __future__ import annotations
 
-from functools import cached_property
-from typing import Any
-
 import numpy as np
 from numpy.typing import NDArray
 from scipy import sparse
 
-from sgim.spaces import FloatArray
-
-
-class Bags:
-    """The mid-level words of several pictures: sparse counts, one row a picture.
-
-    Args:
-        counts: Shape ``(pictures, words)``.
-    """
-
-    def __init__(self, counts: sparse.csr_array) -> None:
-        self.counts = counts
 
 
 class Views:
@@ -33,7 +18,6 @@ class Views:
 
     Attributes:
         labels: The object of each view.
-        counts: How often each word was seen in each view, shape ``(views, words)``.
     """
 
     def __init__(self, new_view: float) -> None:
@@ -56,6 +40,21 @@ class Views:
     def counts(self) -> NDArray[np.float32]:
         """How often each word was seen in each view, shape ``(views, words)``."""
         return self._counts
+
+    def restore(
+        self, labels: list[str], names: NDArray[np.int64], counts: NDArray[np.float32]
+    ) -> None:
+        """Have these views instead.
+
+        Args:
+            labels: The object of each.
+            names: The mid-level words.
+            counts: Shape ``(views, words)``.
+        """
+        self.labels = labels
+        self._names = names
+        self._counts = counts
+        self._forget()
 
     def of(self, label: str) -> int:
         """How many views an object has."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated
 
 from tyro.conf import Positional, arg
 
@@ -20,9 +20,9 @@ def command(
         str | None,
         arg(metavar="NAME", help_behavior_hint="(default: sgim-acts, or sagg-riac if no teachers)"),
     ] = None,
-    teacher: Annotated[str | None, arg(metavar="NAME", help_behavior_hint="(default: all)")] = None,
-    caregiver: Annotated[
-        Literal["unbiased", "biased"] | None, arg(help_behavior_hint="(default: unbiased)")
+    teacher: Annotated[
+        str | None,
+        arg(metavar="NAME", aliases=("--caregiver",), help_behavior_hint="(default: all)"),
     ] = None,
     configuration: Annotated[str, arg(metavar="NAME")] = "modern",
     every: Annotated[
@@ -59,8 +59,8 @@ def command(
     Args:
         experiment: Name of the experiment; sgim list has them.
         learner: Name of the learner; sgim list has them.
-        teacher: The only teacher to ask; mimicry:T1 as learner says the same.
-        caregiver: Who is asked in the experiment objects; objects-biased as experiment says biased.
+        teacher: The only teacher to ask; mimicry:T1 as learner says the same. In objects the
+            default is unbiased.
         configuration: The learner's constants: modern or thesis.
         every: Movements from one demonstration to the next, for sgim-d and imitation.
         seed: Of all random numbers; the same seed gives the same run.
@@ -70,7 +70,7 @@ def command(
         evaluate_every: Movements between evaluations.
         warm_start: Journal of another run, whose trials are observed first.
     """
-    world = find_experiment(experiment, caregiver)
+    world = find_experiment(experiment)
     configuration = demonstrations_every(configuration, every)
     name = learner or world.default_learner
     if teacher is not None:

@@ -44,6 +44,6 @@ class Caregiver:
         return Demonstration(table.seen(toy, pose, rng), f"watch {toy}")
 
 
-def caregivers(table: ToyTable, bias: Literal["unbiased", "biased"]) -> Mapping[str, Teacher]:
-    """The one caregiver of a table, by name."""
-    return {"caregiver": Caregiver(table, bias)}
+def caregivers(table: ToyTable) -> Mapping[str, Teacher]:
+    """The caregivers at a table, by name."""
+    return {"unbiased": Caregiver(table), "biased": Caregiver(table, "biased")}

@@ -56,8 +56,8 @@ class Toy:
 
 def _cubes() -> Toy:
     # Four cubes side by side and on top of each other; front and back are painted differently.
-    front = {(-1, -1): YELLOW, (-1, 1): YELLOW, (1, -1): GREEN, (1, 1): RED}
-    back = {(-1, -1): YELLOW, (-1, 1): YELLOW, (1, -1): RED, (1, 1): GREEN}
+    front = {(-1, -1): YELLOW, (-1, 1): YELLOW, (1, -1): RED, (1, 1): RED}
+    back = {(-1, -1): YELLOW, (-1, 1): YELLOW, (1, -1): GREEN, (1, 1): GREEN}
     half, parts = 0.021, []
     for (column, row), colour in front.items():
         for depth, paint in ((-1, colour), (1, back[column, row])):
@@ -70,12 +70,10 @@ def _car() -> Toy:
     body = [
         Part("box", (0.056, 0.026, 0.013), (0, 0, -0.006), YELLOW),
         Part("box", (0.030, 0.023, 0.012), (-0.006, 0, 0.018), YELLOW),
-        Part("box", (0.021, 0.0235, 0.007), (-0.006, 0, 0.019), DARK),
-        Part("box", (0.0305, 0.018, 0.007), (-0.006, 0, 0.019), DARK),
-        Part("box", (0.014, 0.002, 0.008), (0.0, 0.0255, -0.004), RED),
+        Part("box", (0.002, 0.018, 0.004), (0.0555, 0, -0.004), RED),
     ]
     wheels = [
-        Part("cylinder", (0.013, 0.006), (x, y, -0.018), DARK, (90, 0, 0))
+        Part("cylinder", (0.012, 0.006), (x, y, -0.017), DARK, (90, 0, 0))
         for x in (-0.034, 0.034)
         for y in (-0.025, 0.025)
     ]
