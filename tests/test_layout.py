@@ -44,7 +44,18 @@ DRIVERS = ("runs", "experiments", "claims", "figures")
 
 LEARNER_CODE = ("memory", "policy", "outcome", "strategy", "learner.py", "configurations.py")
 
-WORLD_NAMES = {"throw", "throwing", "arm", "place", "fishing", "rod", "toy", "hockey", "puck", "mallet"}
+WORLD_NAMES = {
+    "throw",
+    "throwing",
+    "arm",
+    "place",
+    "fishing",
+    "rod",
+    "toy",
+    "hockey",
+    "puck",
+    "mallet",
+}
 
 ORDINARY_WORDS = {("outcome", "place")}
 """Identifiers that are the English word: a region tree's records have a place in the unit box."""

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import struct
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from sgim.errors import SpaceError
+from sgim.errors import SpaceError, unknown
 
 _MOST_SAMPLED_ROWS = 8
 
@@ -19,14 +19,18 @@ class Arrays:
 
     Args:
         fields: Name → (NumPy type, columns), such as ``{"colours": ("float32", 3)}``.
+        together: Groups of fields that have one row for the same thing each, and so as many rows.
 
     Raises:
-        SpaceError: If there is no field, or one is not of a number type with columns.
+        SpaceError: If there is no field, one is not of a number type with columns, or a group
+            names one that is not there.
     """
 
     dimension = None
 
-    def __init__(self, fields: Mapping[str, tuple[str, int]]) -> None:
+    def __init__(
+        self, fields: Mapping[str, tuple[str, int]], together: Sequence[Sequence[str]] = ()
+    ) -> None:
         self.fields: dict[str, tuple[str, int]] = {}
         for name, (kind, columns) in fields.items():
             dtype = np.dtype(kind)
@@ -36,13 +40,17 @@ class Arrays:
             self.fields[name] = (dtype.name, int(columns))
         if not self.fields:
             raise SpaceError("a space of arrays needs one or more fields: {name: (type, columns)}")
+        self.together = [list(group) for group in together]
+        for name in (name for group in self.together for name in group):
+            if name not in self.fields:
+                raise unknown("field", name, self.fields)
 
     def check(self, value: Any, what: str = "value") -> dict[str, NDArray[Any]]:
         """Return ``value`` as read-only arrays of the fields' types.
 
         Raises:
             SpaceError: If a field is missing or not known, an array has another type or shape, or
-                a number is not finite.
+                a number is not finite; or if fields that go together differ in rows.
         """
         if not isinstance(value, Mapping) or set(value) != set(self.fields):
             came = sorted(value) if isinstance(value, Mapping) else type(value).__name__
@@ -61,6 +69,10 @@ class Arrays:
                 array = array.copy()
                 array.flags.writeable = False
             checked[name] = array
+        for group in self.together:
+            if len({len(checked[name]) for name in group}) > 1:
+                counts = ", ".join(f"{len(checked[name])} in {name!r}" for name in group)
+                raise SpaceError(f"{what} has {counts}; expected as many rows in each")
         return checked
 
     def contains(self, point: Any) -> bool:
@@ -69,10 +81,11 @@ class Arrays:
 
     def sample(self, rng: np.random.Generator) -> dict[str, NDArray[Any]]:
         """Draw arrays of a few rows of small numbers."""
-        drawn = {}
+        drawn: dict[str, NDArray[Any]] = {}
         for name, (kind, columns) in self.fields.items():
-            shape = (int(rng.integers(1, _MOST_SAMPLED_ROWS + 1)), columns)
-            drawn[name] = rng.integers(0, 100, shape).astype(kind)
+            like = next((g[0] for g in self.together if name in g and g[0] in drawn), None)
+            rows = int(rng.integers(1, _MOST_SAMPLED_ROWS + 1)) if like is None else len(drawn[like])
+            drawn[name] = rng.integers(0, 100, (rows, columns)).astype(kind)
         return drawn
 
     def encode(self, point: Any) -> Any:
@@ -106,8 +119,9 @@ class Arrays:
         return point
 
     def describe(self) -> dict[str, Any]:
-        """The fields."""
-        return {"space": "arrays", "fields": {n: list(field) for n, field in self.fields.items()}}
+        """The fields, and which go together."""
+        fields = {name: list(field) for name, field in self.fields.items()}
+        return {"space": "arrays", "fields": fields, "together": self.together}
 
     def __repr__(self) -> str:
         return f"Arrays({self.fields})"

@@ -41,7 +41,12 @@ def random_choice(
 ) -> Learner:
     """Any label and any mode, all alike (section 2.3.2)."""
     return _learner(
-        "random", task, teachers, configuration, seed, lambda k, labels, *_: UniformGoals({k: labels})
+        "random",
+        task,
+        teachers,
+        configuration,
+        seed,
+        lambda k, labels, *_: UniformGoals({k: labels}),
     )
 
 
@@ -115,8 +120,8 @@ def _only_labels(task: Task) -> tuple[str, Choices]:
     space = task.goal_spaces[kinds[0]]
     if len(kinds) != 1 or not isinstance(space, Choices) or not {*task.outcome_spaces} - {*kinds}:
         raise SgimError(
-            f"learners of labels are for tasks with one kind of goal, which are labels, and views as "
-            f"outcomes; this one has goals {', '.join(kinds)}"
+            "learners of labels are for tasks with one kind of goal, which are labels, and views "
+            f"as outcomes; this one has goals {', '.join(kinds)}"
         )
     return kinds[0], space
 

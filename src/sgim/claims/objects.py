@@ -34,9 +34,7 @@ CLAIMS = (
     Claim(
         "O3",
         "It spends most of its time on the cubes.",
-        tuple(
-            lower(EvenLabels(SGIM_ACTS[c]), OnLabel(SGIM_ACTS[c], HARDEST)) for c in CAREGIVERS
-        ),
+        tuple(lower(EvenLabels(SGIM_ACTS[c]), OnLabel(SGIM_ACTS[c], HARDEST)) for c in CAREGIVERS),
         reading="More than an even share, one in five; the thesis has 54 % and 51 %.",
     ),
     Claim(

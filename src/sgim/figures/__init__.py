@@ -8,12 +8,18 @@ from sgim.figures.error_curves import error_curves
 from sgim.figures.explored import explored
 from sgim.figures.fishing import fishing_movement
 from sgim.figures.hockey_shots import hockey_shots
+from sgim.figures.recognition import f_measures, recognised
+from sgim.figures.toys import contact_sheet, database
 
 __all__ = [
     "choices",
     "choices_by_kind",
+    "contact_sheet",
+    "database",
     "error_curves",
     "explored",
+    "f_measures",
     "fishing_movement",
     "hockey_shots",
+    "recognised",
 ]

@@ -38,7 +38,9 @@ class Dictionary:
             ValueError: If they are of another dimension.
         """
         if words.ndim != 2 or words.shape[1] != self._words.shape[1]:
-            raise ValueError(f"words have shape {words.shape}, expected (n, {self._words.shape[1]})")
+            raise ValueError(
+                f"words have shape {words.shape}, expected (n, {self._words.shape[1]})"
+            )
         self._words = np.concatenate((words.astype(np.float32), self._words[:1]))
         self._count = len(words)
 
@@ -84,4 +86,4 @@ def squares(vectors: Float32, words: Float32) -> NDArray[np.float64]:
     products = vectors @ words.T
     lengths = np.einsum("nd,nd->n", vectors, vectors)[:, None]
     apart = lengths + np.einsum("nd,nd->n", words, words) - 2 * products
-    return np.maximum(apart, 0).astype(np.float64)
+    return np.asarray(np.maximum(apart, 0), np.float64)

@@ -1,4 +1,4 @@
-"""What is kept of a picture: local features, and the colours of superpixels, each with its place."""
+"""What is kept of a picture: local features, colours of superpixels, and where they are."""
 
 from __future__ import annotations
 
@@ -23,7 +23,8 @@ FEATURES = Arrays(
         "regions": ("float32", 2),
         "colours": ("float32", 3),
         "digest": ("uint8", 16),
-    }
+    },
+    together=[("points", "descriptors"), ("regions", "colours")],
 )
 """The space of features, as journals keep them."""
 
@@ -63,7 +64,7 @@ class Features:
     def roots(self) -> NDArray[np.float32]:
         """RootSIFT (Arandjelović and Zisserman 2012): roots of descriptors that sum to 1."""
         sums = self.descriptors.sum(axis=1, keepdims=True, dtype=np.float32)
-        return np.sqrt(self.descriptors / np.maximum(sums, 1))
+        return np.asarray(np.sqrt(self.descriptors / np.maximum(sums, 1)), np.float32)
 
     @cached_property
     def point_pairs(self) -> NDArray[np.intp]:

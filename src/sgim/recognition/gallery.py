@@ -19,14 +19,14 @@ def mid_words(points: NDArray[np.intp], colours: NDArray[np.intp]) -> NDArray[np
     """Mid-level words of pairs of low-level ones, given with the words of both, shape ``(n, 2)``.
 
     Returns:
-        For pairs of local features numbers from 0 on, for pairs of colours negative ones; −2²⁴⁸…
+        Whole numbers: from 0 on for pairs of local features, below 0 for pairs of colours.
     """
     return np.concatenate((_named(points), -1 - _named(colours)))
 
 
 def _named(pairs: NDArray[np.intp]) -> NDArray[np.int64]:
     low, high = pairs.min(axis=1), pairs.max(axis=1)
-    return (low * _PAIR + high).astype(np.int64)
+    return np.asarray(low * _PAIR + high, np.int64)
 
 
 class Gallery:

@@ -43,7 +43,7 @@ class RecognitionModel:
     def shown(self, recognition: Recognition, label: str) -> float:
         """The competence γ(b, a) that recognising a picture of an object shows."""
         first, second = recognition.likelihood, recognition.second_likelihood
-        views = self.recogniser.views.of(label)
+        views = self.recogniser.known_views(label)
         match (recognition.label == label, recognition.second == label):
             case True, True:
                 return views * first + LOWEST

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import numpy as np
 
-from sgim.errors import SgimError
+from sgim.errors import SgimError, unknown
 from sgim.recognition.dictionary import Dictionary
 from sgim.recognition.features import Eye, Features
 from sgim.recognition.gallery import Gallery, mid_words
@@ -83,6 +83,16 @@ class Recogniser:
     def labels(self) -> tuple[str, ...]:
         """The labels learned, in the order they were first heard."""
         return tuple(dict.fromkeys(self.views.labels))
+
+    def known_views(self, label: str) -> int:
+        """How many views of an object are known.
+
+        Raises:
+            UnknownNameError: If no picture of it has been learned.
+        """
+        if label not in self.views.labels:
+            raise unknown("label", label, self.labels)
+        return self.views.of(label)
 
     def learn(self, seen: Picture | Features, label: str) -> bool:
         """Learn that a picture shows an object.

@@ -60,7 +60,7 @@ def load(path: str | Path) -> Recogniser:
         OSError: If it cannot be read.
     """
     try:
-        with np.load(path, allow_pickle=False) as kept:
+        with Path(path).open("rb") as file, np.load(file, allow_pickle=False) as kept:
             about: dict[str, Any] = json.loads(kept["about"].tobytes())
             _require_known(about, path)
             points, colours, names, rows, columns, counts, labels = (kept[n] for n in _ARRAYS)

@@ -7,7 +7,6 @@ from numpy.typing import NDArray
 from scipy import sparse
 
 
-
 class Views:
     """Views of objects, and the dictionary of their mid-level words.
 
@@ -124,4 +123,4 @@ class Views:
         lengths = np.sqrt(weighed_bags.multiply(weighed_bags).sum(axis=1))
         products = np.asarray(weighed_bags @ units.T)
         found = products / np.maximum(lengths, 1e-12)[:, None]
-        return np.minimum(found, 1.0).astype(np.float64)
+        return np.asarray(np.minimum(found, 1.0), np.float64)

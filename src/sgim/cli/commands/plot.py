@@ -11,7 +11,14 @@ from typing import TYPE_CHECKING, Annotated, Literal
 from tyro.conf import Positional, arg
 
 from sgim.errors import SgimError
-from sgim.figures import choices, choices_by_kind, error_curves, explored
+from sgim.figures import (
+    choices,
+    choices_by_kind,
+    error_curves,
+    explored,
+    f_measures,
+    recognised,
+)
 from sgim.figures.curves import Band
 from sgim.figures.style import NothingToDrawError
 from sgim.runs.costs import Prices
@@ -36,7 +43,9 @@ def command(
     NAME-costs      the same over the time of robot and persons, if anybody was asked
     NAME-choices    modes and kinds of goal chosen over time, all seeds together
     NAME-strategies modes chosen for each kind of goal, by learners that choose both
+    NAME-recognised pictures recognised over episodes, where objects are recognised
     RUN-explored    what has been explored, for one run of each learner, or for --each
+    RUN-f-measures  how well each object is told apart, and which was manipulated; likewise
 
     The line is the interquartile mean of the runs and the band its 95 % bootstrap interval at
     each evaluation; with --band quartiles, the median and the quartiles. sgim compare says
@@ -72,6 +81,8 @@ def command(
             (f"{stem}-costs", partial(error_curves, runs, band=band, prices=prices)),
             (f"{stem}-choices", partial(choices, runs)),
             (f"{stem}-strategies", partial(choices_by_kind, runs)),
+            (f"{stem}-recognised", partial(recognised, runs, band=band)),
+            *((f"{path.stem}-f-measures", partial(f_measures, path)) for path in chosen),
             *((f"{path.stem}-explored", partial(explored, path)) for path in chosen),
         ]
         for title, draw in drawings:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from sgim.environments.objects.camera import Pixels, Shot
 from sgim.recognition.picture import Picture
@@ -52,8 +53,8 @@ class Nuisances:
             hidden = _bar(shot, self.bar * rng.random(), rng)
             colours[hidden] = _BAR
             depth[hidden] = 0.0  # too near for the camera to tell
-        if self.blur > 0:
-            colours = _blurred(colours, self.blur)
+        if self.blur > 0 and shot.toy.any():
+            _blur(colours, shot.toy, self.blur)
         gain = 1 + self.gain * rng.uniform(-1, 1)
         cast = 1 + self.white_balance * rng.uniform(-1, 1, 3)
         colours *= (255 * gain * cast).astype(np.float32)
@@ -62,7 +63,11 @@ class Nuisances:
         return Picture(colours.astype(np.uint8), np.maximum(depth, 0))
 
 
-def _bar(shot: Shot, share: float, rng: np.random.Generator) -> np.ndarray[tuple[int, ...], np.dtype[np.bool_]]:
+STILL = Nuisances(0, 0, 0, 0, 0, 0, 0, 0, 0)
+"""No nuisances: what a perfect camera sees of a toy in the middle of the table."""
+
+
+def _bar(shot: Shot, share: float, rng: np.random.Generator) -> NDArray[np.bool_]:
     """The pixels of a straight bar that hides a share of the toy."""
     angle, start = rng.uniform(0, np.pi), rng.uniform(0, 1 - share)
     height, width = shot.toy.shape
@@ -71,23 +76,20 @@ def _bar(shot: Shot, share: float, rng: np.random.Generator) -> np.ndarray[tuple
     return np.asarray((along >= low) & (along < high))
 
 
-def _blurred(colours: Pixels, sigma: float) -> Pixels:
-    """Blurred by a Gaussian of standard deviation ``sigma`` in pixels."""
+def _blur(colours: Pixels, toy: NDArray[np.bool_], sigma: float) -> None:
+    """Blur the toy and its surroundings by a Gaussian of standard deviation ``sigma`` in pixels."""
     reach = int(np.ceil(3 * sigma))
     weights = np.exp(-0.5 * (np.arange(-reach, reach + 1) / sigma) ** 2)
     weights = (weights / weights.sum()).astype(np.float32)
+    window = []
+    for axis in (1, 0):
+        inside = np.flatnonzero(toy.any(axis=axis))
+        window.append(slice(max(0, inside[0] - 2 * reach), inside[-1] + 2 * reach + 1))
+    blurred = colours[tuple(window)]
     for axis in (0, 1):
-        n = colours.shape[axis]
-        wide = np.pad(colours, [(reach, reach) if a == axis else (0, 0) for a in range(3)], "edge")
-        parts = (
-            w * _slice(wide, axis, i, n)
-            for i, w in enumerate(weights)
-        )
-        colours = sum(parts, np.zeros_like(colours))
-    return colours
-
-
-def _slice(array: Pixels, axis: int, start: int, n: int) -> Pixels:
-    index = [slice(None)] * array.ndim
-    index[axis] = slice(start, start + n)
-    return array[tuple(index)]
+        n = blurred.shape[axis]
+        wide = np.pad(blurred, [(reach,) * 2 if a == axis else (0, 0) for a in range(3)], "edge")
+        blurred = np.zeros_like(blurred)
+        for i, weight in enumerate(weights):
+            blurred += weight * (wide[i : i + n] if axis == 0 else wide[:, i : i + n])
+    colours[tuple(window)] = blurred

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from functools import cache
 from importlib.resources import files
 
@@ -10,29 +11,42 @@ import numpy as np
 from sgim.environments.objects.table import ToyTable
 from sgim.errors import SgimError
 from sgim.recognition.features import FEATURES, Features
+from sgim.recognition.picture import Picture
 from sgim.streams import Streams
 
 PICTURES_FILE = "objects_pictures.npz"
 EACH = 64
-_SEED = 20_261_124
+SEED = 20_261_124
 
 
-def make_pictures(table: ToyTable, seed: int = _SEED, each: int = EACH) -> dict[str, list[Features]]:
-    """Drop each toy turned over anyhow, and look at it, as often as asked.
+def evaluation_pictures(
+    table: ToyTable, toy: str, count: int = EACH, seed: int = SEED
+) -> Iterator[Picture]:
+    """Drop a toy turned over anyhow and look at it, as often as asked.
 
     The streams are the pictures' own, so that no learner meets the same pictures.
 
     Args:
         table: Where.
+        toy: Its name.
+        count: How many pictures.
         seed: Of the streams.
-        each: Pictures of each toy.
     """
-    streams, made = Streams(seed), {}
-    for toy in table.toys.labels:
-        rngs = [streams(f"pictures/{toy}", number) for number in range(each)]
-        views = [table.seen(toy, table.moved(toy, "lift", rng), rng)["view"] for rng in rngs]
-        made[toy] = [Features.of(view) for view in views]
-    return made
+    streams = Streams(seed)
+    for number in range(count):
+        rng = streams(f"pictures/{toy}", number)
+        yield table.picture(toy, table.moved(toy, "lift", rng), rng)
+
+
+def make_pictures(
+    table: ToyTable, count: int = EACH, seed: int = SEED
+) -> dict[str, list[Features]]:
+    """The features of `evaluation_pictures` of each toy."""
+    look = table.eye.look
+    return {
+        toy: [look(picture) for picture in evaluation_pictures(table, toy, count, seed)]
+        for toy in table.toys.labels
+    }
 
 
 @cache
@@ -50,6 +64,8 @@ def kept_pictures() -> dict[str, list[Features]]:
         packed, lengths, toys = arrays["packed"].tobytes(), arrays["lengths"], arrays["toys"]
     start = 0
     for toy, length in zip(toys.tolist(), lengths.tolist(), strict=True):
-        kept.setdefault(toy, []).append(Features.of(FEATURES.unpack(packed[start : start + length])))
+        kept.setdefault(toy, []).append(
+            Features.of(FEATURES.unpack(packed[start : start + length]))
+        )
         start += length
     return kept

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from sgim.environments.base import Environment
 from sgim.environments.mujoco import mujoco
@@ -21,10 +21,13 @@ from sgim.task import Task
 ACTIONS = ("push", "lift", "watch")
 """What can be done with a toy: the robot's own two, and to watch a caregiver."""
 
-_TIME_STEP = 0.004
-_SETTLING_TIME = 1.0
-_DROP = 0.12
-_HELD = 0.06
+_TIME_STEP = 0.004  # s
+_SETTLING_TIME = 1.0  # s
+_DROP = 0.12  # m
+_HELD = 0.06  # m
+_PUSH = (0.3, 0.9)  # m/s
+_TIP = 12.0  # rad/s for each m/s
+_SPIN = 12.0  # rad/s
 
 
 class ToyTable(Environment):
@@ -86,14 +89,15 @@ class ToyTable(Environment):
     def moved(self, toy: str, action: str, rng: np.random.Generator) -> FloatArray:
         """Where a toy comes to rest after an action: place in m and quaternion, shape ``(7,)``."""
         if action == "push":
-            start = self.presented(toy, rng.uniform(0, 2 * np.pi))
-            angle, speed = rng.uniform(0, 2 * np.pi), rng.uniform(0.3, 0.9)
+            standing = self.presented(toy, rng.uniform(0, 2 * np.pi))
+            angle, speed = rng.uniform(0, 2 * np.pi), rng.uniform(*_PUSH)
             push = speed * np.array([np.cos(angle), np.sin(angle)])
-            tip = rng.uniform(0, 12) * np.array([-push[1], push[0]])
-            return self.settled(toy, start, (*push, 0.0, *tip, rng.uniform(-12, 12)))
+            tip = rng.uniform(0, _TIP) * np.array([-push[1], push[0]])
+            spin = rng.uniform(-_SPIN, _SPIN)
+            return self.settled(toy, standing, (*push, 0.0, *tip, spin))
         turn = rng.standard_normal(4)
-        start = (0.0, 0.0, _DROP if action == "lift" else _HELD, *(turn / np.linalg.norm(turn)))
-        return self.settled(toy, start)
+        height = _DROP if action == "lift" else _HELD
+        return self.settled(toy, (0.0, 0.0, height, *(turn / np.linalg.norm(turn))))
 
     def presented(self, toy: str, angle: float) -> FloatArray:
         """How a toy stands, or lies if it would not stand, with its front turned by an angle."""
@@ -108,9 +112,7 @@ class ToyTable(Environment):
         self._mujoco.mju_mulQuat(both, about, back)
         return both
 
-    def settled(
-        self, toy: str, start: Sequence[float], velocity: Sequence[float] = (0.0,) * 6
-    ) -> FloatArray:
+    def settled(self, toy: str, start: ArrayLike, velocity: ArrayLike = (0.0,) * 6) -> FloatArray:
         """Let a toy go, and wait until it lies.
 
         Args:

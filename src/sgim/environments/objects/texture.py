@@ -50,4 +50,5 @@ def texture(places: Any, shifts: Any) -> NDArray[np.float32]:
                 ij = i + j
                 near, far = lattice[ij + low[2]], lattice[ij + high[2]]
                 total += wx * wy * (near + z * (far - near))
-    return total / len(_CELLS)
+    total *= np.float32(1 / len(_CELLS))
+    return total

@@ -9,9 +9,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-YELLOW = (0.93, 0.76, 0.10)
-RED = (0.80, 0.12, 0.12)
-GREEN = (0.12, 0.58, 0.22)
+YELLOW = (0.66, 0.55, 0.15)
+RED = (0.82, 0.14, 0.13)
+GREEN = (0.16, 0.62, 0.25)
 GREY = (0.55, 0.55, 0.57)
 DARK = (0.16, 0.16, 0.18)
 VIOLET = (0.48, 0.20, 0.62)
@@ -109,7 +109,7 @@ def _bear() -> Toy:
         "bear",
         [
             Part("ellipsoid", (0.030, 0.024, 0.034), (0, 0, -0.010), RED),
-            Part("ellipsoid", (0.016, 0.006, 0.008), (0, -0.020, 0.014), GREEN),
+            Part("ellipsoid", (0.023, 0.023, 0.008), (0, 0, 0.019), GREEN),
             Part("sphere", (0.024,), (0, 0, 0.040), RED),
             Part("ellipsoid", (0.010, 0.008, 0.008), (0, -0.021, 0.036), RED),
             Part("sphere", (0.004,), (0, -0.029, 0.038), DARK),
