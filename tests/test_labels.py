@@ -153,7 +153,7 @@ def test_constants_can_be_set() -> None:
 
 
 def test_an_unknown_label_is_answered_with_the_nearest() -> None:
-    with pytest.raises(SpaceError, match="unknown label 'cube'. Did you mean 'cubes'"):
+    with pytest.raises(SpaceError, match=r"unknown label 'cube'\. Did you mean 'cubes'"):
         made().competence("toy", "cube")
     with pytest.raises(UnknownNameError, match="unknown learner 'sagg-riac'"):
         made("sagg-riac")
@@ -172,5 +172,3 @@ def test_without_a_caregiver_nothing_is_presented() -> None:
     learner = algorithms.make("sgim-acts", TASK)
     assert learner.teachers == ()
     assert {mode for _, mode in lived(learner, 20)} == {"push", "lift"}
-
-

@@ -16,13 +16,20 @@ WORDS = {"arrays", "errors", "frozen", "spaces", "records", "streams", "task"}
 """The words of the domain, and what everything may use."""
 
 SPINE = (
-    {"events", "demonstrations"},
+    {"events", "demonstrations", "mixtures"},
     {"memory"},
     {"policy"},
     {"outcome"},
     {"strategy"},
     {"ledger", "transitions", "answers", "learner"},
-    {"configurations", "parts", "labels", "algorithms"},
+    {
+        "mixture_settings",
+        "configurations",
+        "parts",
+        "labels",
+        "mixture_algorithms",
+        "algorithms",
+    },
     {"runs"},
     {"experiments"},
     {"claims"},
@@ -42,7 +49,16 @@ MEASURES = {"statistics"}
 DRIVERS = ("runs", "experiments", "claims", "figures")
 """What brings learners and worlds together, and measures them."""
 
-LEARNER_CODE = ("memory", "policy", "outcome", "strategy", "learner.py", "configurations.py")
+LEARNER_CODE = (
+    "mixtures",
+    "memory",
+    "policy",
+    "outcome",
+    "strategy",
+    "learner.py",
+    "mixture_settings.py",
+    "configurations.py",
+)
 
 WORLD_NAMES = {
     "throw",

@@ -84,7 +84,9 @@ class Arrays:
         drawn: dict[str, NDArray[Any]] = {}
         for name, (kind, columns) in self.fields.items():
             like = next((g[0] for g in self.together if name in g and g[0] in drawn), None)
-            rows = int(rng.integers(1, _MOST_SAMPLED_ROWS + 1)) if like is None else len(drawn[like])
+            rows = (
+                int(rng.integers(1, _MOST_SAMPLED_ROWS + 1)) if like is None else len(drawn[like])
+            )
             drawn[name] = rng.integers(0, 100, (rows, columns)).astype(kind)
         return drawn
 

@@ -293,7 +293,9 @@ def space_from_description(description: Mapping[str, Any]) -> Space:
     if kind == "choices":
         return Choices(description["labels"])
     if kind == "arrays":
-        fields = {name: (dtype, columns) for name, (dtype, columns) in description["fields"].items()}
+        fields = {
+            name: (dtype, columns) for name, (dtype, columns) in description["fields"].items()
+        }
         return Arrays(fields, description["together"])
     raise SpaceError(
         f"a space described as {kind!r} cannot be rebuilt from a journal alone; "

@@ -59,7 +59,7 @@ def test_a_picture_unlike_the_objects_views_is_a_new_view() -> None:
 
 
 def test_nothing_is_recognised_before_something_is_learned() -> None:
-    with pytest.raises(NothingLearnedError, match="learn.* comes before recognise"):
+    with pytest.raises(NothingLearnedError, match=r"learn.* comes before recognise"):
         Recogniser().recognise(picture((RED,)))
 
 

@@ -2,16 +2,58 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import groupby
 from typing import ClassVar
 
 import numpy as np
 
-from sgim.claims.measures import Unit
+from sgim.claims.measures import Error, Unit
 from sgim.runs.measured import MeasuredRun
 from sgim.runs.summary import RecordedRun
 from sgim.spaces import Choices
+
+
+@dataclass(frozen=True)
+class Loss:
+    """By how much the final error of a learner is above that of another, seed by seed.
+
+    Attributes:
+        of: Whose error.
+        above: Above whose.
+    """
+
+    of: str
+    above: str
+
+    unit: ClassVar[Unit] = "share"
+    of_choices: ClassVar[bool] = False
+
+    @property
+    def learners(self) -> tuple[str, ...]:
+        """Both."""
+        return (self.of, self.above)
+
+    @property
+    def learner(self) -> str:
+        """Whose error it is."""
+        return self.of
+
+    @property
+    def what(self) -> str:
+        """In words."""
+        return f"total error above that of {self.above}"
+
+    def values(
+        self, groups: Mapping[str, Sequence[MeasuredRun]], movements: int
+    ) -> dict[int | None, float]:
+        """The difference at each seed that both have."""
+        one, other = (
+            {run.seed: Error(name).of(run, movements) for run in groups[name]}
+            for name in self.learners
+        )
+        return {seed: error - other[seed] for seed, error in one.items() if seed in other}
 
 
 @dataclass(frozen=True)

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from sgim.claims.claim import Chapter, Claim
 from sgim.claims.components import lower
-from sgim.claims.label_measures import Dwelling, EvenLabels, OnLabel
-from sgim.claims.measures import Error, Loss
+from sgim.claims.label_measures import Dwelling, EvenLabels, Loss, OnLabel
+from sgim.claims.measures import Error
 
 HARDEST = "cubes"
 CAREGIVERS = ("unbiased", "biased")

@@ -18,6 +18,9 @@ from sgim.runs.journal_reading import header_of
 from sgim.runs.run import Run
 from sgim.teachers import Teacher
 
+NO_TEACHER = "none"
+"""Said instead of a teacher's name."""
+
 
 @dataclass(frozen=True)
 class Experiment:
@@ -30,10 +33,14 @@ class Experiment:
         benchmark: Makes the benchmark for a world.
         teachers: Teacher's name → one line that says what it shows.
         make_teachers: Makes the teachers.
-        asked: The teachers of a learner for which none is named; all if None.
         unit: Unit of the benchmark's errors.
         movements: How many movements a run has by default.
-        evaluate_every: Movements between evaluations by default; None for a share of the run.
+        alone: The learner of a run without teachers, when none is named.
+        taught: The learner of a run with teachers, when none is named.
+        default_teacher: The only teacher of a run for which none is named; None for all,
+            `NO_TEACHER` for none if no learner is named either, else all.
+        batch: How many movements a run carries out side by side by default.
+        evaluate_every: Most movements between evaluations by default.
         variant_of: Name of the experiment of which this is a variant, if it is one.
     """
 
@@ -43,25 +50,33 @@ class Experiment:
     benchmark: Callable[[MinimalEnvironment], Measures]
     teachers: Mapping[str, str] = field(default_factory=dict)
     make_teachers: Callable[[], Mapping[str, Teacher]] = dict
-    asked: Sequence[str] | None = None
     unit: str = "share of the outcome space"
     movements: int = 8000
-    evaluate_every: int | None = None
+    alone: str = "sagg-riac"
+    taught: str = "sgim-acts"
+    default_teacher: str | None = None
+    batch: int = 1
+    evaluate_every: int = 1000
     variant_of: str | None = None
 
-    @property
-    def default_learner(self) -> str:
-        """The learner that a run has when none is named."""
-        return "sgim-acts" if self.teachers else "sagg-riac"
+    def learner_name(self, learner: str | None = None, teacher: str | None = None) -> str:
+        """The name of a run's learner, given what was said of it.
 
-    def evaluation_interval(self, movements: int) -> int:
-        """Movements between the evaluations of a run of so many movements by default."""
-        return self.evaluate_every or evaluation_interval(movements)
+        Args:
+            learner: Its name; None for the experiment's own.
+            teacher: Its only teacher; `NO_TEACHER` for none, None if nothing was said.
+        """
+        if learner is None:
+            teacher = self.default_teacher if teacher is None else teacher
+            learner = self.taught if self.teachers and teacher != NO_TEACHER else self.alone
+        return learner if teacher is None else f"{learner.partition(':')[0]}:{teacher}"
 
     def learner(
         self, name: str, *, configuration: str | Configuration = "modern", seed: int = 0
     ) -> Learner:
         """Make a learner by its name on the command line, such as ``mimicry:T1``.
+
+        With ``:none`` it has no teacher.
 
         Raises:
             UnknownNameError: If learner, teacher or configuration is unknown.
@@ -73,13 +88,14 @@ class Experiment:
         known = algorithms.algorithms_for(task)
         if algorithm not in known:
             raise unknown("learner", algorithm, known)
-        if colon and teacher not in self.teachers:
+        if colon and teacher not in (*self.teachers, NO_TEACHER):
             if not self.teachers:
                 raise SgimError(f"{self.name} has no teachers; leave {teacher!r} out")
             raise unknown(f"teacher of {self.name}", teacher, self.teachers)
         chosen = configurations.configuration_of(configuration)
-        usual = list(self.teachers if self.asked is None else self.asked)
-        teachers: Sequence[str] = [teacher] if colon else usual
+        named = [] if teacher == NO_TEACHER else [teacher]
+        usual = [t for t in self.teachers if self.default_teacher in (t, None, NO_TEACHER)]
+        teachers: Sequence[str] = named if colon else usual
         try:
             learner = algorithms.make(algorithm, task, teachers, configuration=chosen, seed=seed)
         except UnknownNameError:
@@ -89,7 +105,7 @@ class Experiment:
                 raise SgimError(f"{algorithm} needs a teacher, and {self.name} has none") from error
             shown = "; ".join(f"{algorithm}:{t} ({line})" for t, line in self.teachers.items())
             raise SgimError(f"{algorithm} has one teacher: choose among {shown}") from error
-        if colon and not learner.teachers:
+        if colon and named and not learner.teachers:
             raise SgimError(f"{algorithm} asks no teacher; leave {teacher!r} out")
         return learner
 
@@ -251,11 +267,11 @@ class Experiment:
         )
 
 
-def evaluation_interval(movements: int) -> int:
-    """Movements between evaluations: 1000 or less, a quarter of the run or less.
+def evaluation_interval(movements: int, most: int = 1000) -> int:
+    """Movements between evaluations: ``most`` or less, a quarter of the run or less.
 
     It divides the run evenly where that is possible, so that the last evaluation is at its end.
     """
-    least = max(4, -(-movements // 1000))
+    least = max(4, -(-movements // most))
     even = (movements // parts for parts in range(least, 2 * least) if movements % parts == 0)
     return next(even, max(1, movements // least))

@@ -20,9 +20,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-def recognised(
-    journals: Iterable[str | Path | RecordedRun], *, band: Band = "interval"
-) -> Figure:
+def recognised(journals: Iterable[str | Path | RecordedRun], *, band: Band = "interval") -> Figure:
     """Draw how many pictures of an object are recognised, in the mean of the objects.
 
     Each caregiver has a panel, and each learner a line and a band over its runs (figure 2.3.2).
