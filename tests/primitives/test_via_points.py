@@ -18,7 +18,12 @@ MALLET = ViaPoints(
     Box([-1, -1], [1, 1], names=["x", "y"], unit="m"),
     Intervals(points=5, shortest=0.05, longest=0.5, sharpness=16.0),
 )
-PRIMITIVES = {"arm": ARM, "mallet": MALLET}
+FIXED = ViaPoints(
+    Box([-2, -2], [2, 2], names=["shoulder", "elbow"], unit="rad"),
+    EvenlySpaced(points=9, shortest=2.0, longest=2.0, width=1 / 16),
+    scaled=True,
+)
+PRIMITIVES = {"arm": ARM, "mallet": MALLET, "fixed": FIXED}
 BOTH = pytest.mark.parametrize("primitive", PRIMITIVES.values(), ids=PRIMITIVES.keys())
 
 
@@ -223,6 +228,13 @@ def test_a_trajectory_that_cannot_be_made_is_refused(
 def test_policies_of_another_shape_are_refused(policies: FloatArray) -> None:
     with pytest.raises(SpaceError, match=r"expected \(n, 14\)"):
         MALLET.positions(policies, [0.0])
+
+
+def test_a_fixed_duration_is_no_parameter() -> None:
+    assert FIXED.policy_space.dimension == 18
+    np.testing.assert_array_equal(FIXED.durations(sample(FIXED, 2)), [2.0, 2.0])
+    with pytest.raises(SpaceError, match="from 2 to 2 s"):
+        FIXED.fit(Trajectory([0.0, 1.5], [[0, 0], [1, 1]], FIXED.joints))
 
 
 @pytest.mark.parametrize(
