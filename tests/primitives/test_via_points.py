@@ -20,10 +20,10 @@ MALLET = ViaPoints(
 )
 FIXED = ViaPoints(
     Box([-2, -2], [2, 2], names=["shoulder", "elbow"], unit="rad"),
-    EvenlySpaced(points=9, shortest=2.0, longest=2.0, width=1 / 16),
+    EvenlySpaced(points=9, shortest=1.0, longest=1.0, width=1 / 16),
     scaled=True,
 )
-PRIMITIVES = {"arm": ARM, "mallet": MALLET, "fixed": FIXED}
+PRIMITIVES = {"arm": ARM, "mallet": MALLET}
 BOTH = pytest.mark.parametrize("primitive", PRIMITIVES.values(), ids=PRIMITIVES.keys())
 
 
@@ -231,9 +231,13 @@ def test_policies_of_another_shape_are_refused(policies: FloatArray) -> None:
 
 
 def test_a_fixed_duration_is_no_parameter() -> None:
-    assert FIXED.policy_space.dimension == 18
-    np.testing.assert_array_equal(FIXED.durations(sample(FIXED, 2)), [2.0, 2.0])
-    with pytest.raises(SpaceError, match="from 2 to 2 s"):
+    (policy,) = sample(FIXED)
+    assert policy.shape == (18,)
+    assert FIXED.durations(policy[None]) == 1.0
+    fitted, residual = FIXED.fit(FIXED.trajectory(policy, rate=50))
+    assert residual < 1e-6
+    np.testing.assert_allclose(fitted, policy, atol=1e-4)
+    with pytest.raises(SpaceError, match="from 1 to 1 s"):
         FIXED.fit(Trajectory([0.0, 1.5], [[0, 0], [1, 1]], FIXED.joints))
 
 
