@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any, Literal
 
 from sgim.claims.components import Component, Finding
-from sgim.claims.world import World
+from sgim.claims.world import World, apart
 from sgim.runs.contrasts import LEVEL
 from sgim.statistics import holm, least_pairs
 from sgim.streams import Streams
@@ -62,11 +62,21 @@ class Chapter:
         return list(dict.fromkeys(x for claim in self.claims for x in claim.learners))
 
     @property
+    def sweeps(self) -> dict[tuple[str, str], list[str]]:
+        """Experiment, and settings that differ from the configuration → whose runs are needed."""
+        found: dict[tuple[str, str], list[str]] = {}
+        for learner in self.learners:
+            name, where = apart(learner)
+            experiment, _, settings = (where or self.experiment).partition(" with ")
+            found.setdefault((experiment, settings), []).append(name)
+        return found
+
+    @property
     def choosers(self) -> set[str]:
-        """Whose choices its claims are about."""
+        """Whose choices, or whatever else is not in evaluations, its claims are about."""
         components = (part for claim in self.claims for part in claim.components)
         measures = (m for part in components for m in (part.one, part.other))
-        return {m.learner for m in measures if not isinstance(m, float) and m.of_choices}
+        return {apart(m.learner)[0] for m in measures if not isinstance(m, float) and m.of_choices}
 
 
 @dataclass(frozen=True)
@@ -171,7 +181,7 @@ def decide(chapter: Chapter, world: World, seed: int = 0) -> Verdicts:
         seed: Of the bootstrap; the intervals are a function of it and of the runs.
     """
     streams, notes = Streams(seed), list(world.notes)
-    needs = [tuple(x for x in claim.learners if x not in world.groups) for claim in chapter.claims]
+    needs = [tuple(x for x in claim.learners if not world.has(x)) for claim in chapter.claims]
     tested = [
         tuple(part.test(world, streams, notes) for part in claim.components) if not lacking else ()
         for claim, lacking in zip(chapter.claims, needs, strict=True)

@@ -10,7 +10,7 @@ from typing import Any
 
 from sgim.claims.claim import Chapter, Verdicts, decide
 from sgim.claims.plausible import Plausible, count_worlds
-from sgim.claims.world import base_of, read_runs, worlds_of
+from sgim.claims.world import base_of, linked, read_runs, worlds_of
 from sgim.errors import SgimError, unknown
 from sgim.experiments import EXPERIMENTS
 from sgim.runs.measured import MeasuredRun
@@ -82,7 +82,10 @@ def report(
     tables: list[Verdicts] = []
     for chapter in chapters:
         worlds = worlds_of([run for run in kept if _main(run) == chapter.experiment], at)
-        tables += [decide(chapter, world, seed) for world in worlds]
+        several = [decide(chapter, w, seed) for w in linked(worlds, chapter.experiment)]
+        # Some worlds are there only to be compared with another.
+        decided = [verdicts for verdicts in several if any(v.findings for v in verdicts.verdicts)]
+        tables += decided or several
     notes = [
         f"no claims are about {name}: left out {count} run{'s' * (count > 1)}"
         for name, count in sorted(others.items())

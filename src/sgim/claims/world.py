@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Container, Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from sgim.claims.measures import Measure
@@ -22,6 +22,8 @@ class World:
         movements: After how many movements they are compared.
         groups: Name of a learner → its runs, in the order of their seeds.
         notes: What was left out, and what else a reader should know.
+        elsewhere: Other worlds of the same base configuration by their names, for claims that
+            compare worlds.
     """
 
     experiment: str
@@ -29,6 +31,12 @@ class World:
     movements: int
     groups: Mapping[str, Sequence[MeasuredRun]]
     notes: tuple[str, ...]
+    elsewhere: Mapping[str, World] = field(default_factory=dict)
+
+    @property
+    def name(self) -> str:
+        """The experiment, and what differs from the base configuration."""
+        return f"{self.experiment} with {self.settings}" if self.settings else self.experiment
 
     @property
     def base(self) -> str:
@@ -40,15 +48,39 @@ class World:
         """What differs from the base; empty if nothing does."""
         return self.configuration.partition(",")[2]
 
+    def has(self, learner: str) -> bool:
+        """Whether there are runs of a learner, here or in the world that its name says."""
+        name, where = apart(learner)
+        if where is None:
+            return name in self.groups
+        return where in self.elsewhere and self.elsewhere[where].has(name)
+
     def values(self, measure: Measure) -> dict[int | None, float]:
         """The measure of each run of its learner, by seed."""
-        runs = self.groups[measure.learner]
-        return {run.seed: measure.of(run, self.movements) for run in runs}
+        name, where = apart(measure.learner)
+        world = self if where is None else self.elsewhere[where]
+        return {run.seed: measure.of(run, world.movements) for run in world.groups[name]}
 
 
 def base_of(configuration: str) -> str:
     """The name of the configuration from which one differs: ``modern`` of ``modern,prior=0.1``."""
     return configuration.partition(",")[0]
+
+
+def apart(learner: str) -> tuple[str, str | None]:
+    """A learner's name, and the world where its runs are: ``sgim-d:D3 in fishing-wide``."""
+    name, _, where = learner.partition(" in ")
+    return name, where or None
+
+
+def linked(worlds: Sequence[World], experiment: str) -> list[World]:
+    """The worlds; those of an experiment as it is know the others of their base configuration."""
+    return [
+        replace(world, elsewhere={w.name: w for w in worlds if w.base == world.base})
+        if world.name == experiment
+        else world
+        for world in worlds
+    ]
 
 
 def read_runs(paths: Iterable[Path], choosers: Container[str | None]) -> list[MeasuredRun]:
