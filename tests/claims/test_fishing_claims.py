@@ -50,7 +50,9 @@ class Made:
     seen: float = 0.1
 
 
-WIDE, FLOOR, RARE = "fishing-wide", "fishing-floor", "every 80"
+WIDE, FLOOR = "fishing-wide", "fishing-floor"
+RARE, IM = "demonstration_every=80", "request_cost=2,request_window=15"
+SETTINGS = (RARE, IM)
 
 HOLDS: dict[tuple[str, str], Made] = {
     ("fishing", "random"): Made(0.30, 0.20, tiles=50),
@@ -62,7 +64,7 @@ HOLDS: dict[tuple[str, str], Made] = {
     ("fishing", "sgim-d:D2"): Made(0.15, 0.06),
     ("fishing", "sgim-d:D4"): Made(0.15, 0.06),
     ("fishing", "sgim-d:D5"): Made(0.20, 0.17),
-    ("fishing", "sgim-im:D3"): Made(0.15, 0.06),
+    (IM, "sgim-im:D3"): Made(0.15, 0.06),
     ("fishing", "sgim-acts:D3"): Made(0.15, 0.06),
     ("fishing", "uniform-choice:D3"): Made(0.20, 0.12),
     ("fishing", "round-robin:D3"): Made(0.20, 0.12),
@@ -110,9 +112,9 @@ def run(where: str, learner: str, seed: int, made: Made) -> MadeUpRun:
     count = round(made.asking * made.requested_early)
     asks = {*first[:count].tolist(), *later[: made.asking - count].tolist()}
     modes = ["imitate D3" if i in asks else "autonomous" for i in range(400)]
-    name = "modern,demonstration_every=80" if where == RARE else "modern"
+    name = f"modern,{where}" if where in SETTINGS else "modern"
     recipe = {"configuration": {"name": name}, "seed": seed}
-    experiment = "fishing" if where == RARE else where
+    experiment = "fishing" if where in SETTINGS else where
     return MadeUpRun(
         Path(f"{where}-{learner}-{seed}.sgim"),
         {"experiment": experiment, "learner": learner, "recipe": recipe},
@@ -165,14 +167,14 @@ OTHERWISE: list[tuple[str, str, str, dict[str, Any]]] = [
     ("F11", "fishing", "sgim-d:D3", {"structured": 0.0}),
     ("F12", FLOOR, "sgim-d", {"seen": 0.05}),
     ("F12", FLOOR, "sgim-d", {"late": 40.0}),
-    ("H5", "fishing", "sgim-im:D3", {"late": 0.18}),
-    ("H6", "fishing", "sgim-im:D3", {"asking": 100}),
+    ("H5", IM, "sgim-im:D3", {"late": 0.18}),
+    ("H6", IM, "sgim-im:D3", {"asking": 100}),
     ("H6", RARE, "sgim-d:D3", {"late": 0.04}),
-    ("H7", "fishing", "sgim-im:D3", {"requested_early": 0.2}),
+    ("H7", IM, "sgim-im:D3", {"requested_early": 0.2}),
     ("S1", "fishing", "round-robin:D3", {"late": 0.05}),
     ("S2", "fishing", "demonstrations-first:D3", {"late": 0.05}),
     ("S2b", "fishing", "demonstrations-first-sagg-riac:D3", {"late": 0.05}),
-    ("S3", "fishing", "sgim-im:D3", {"late": 0.13}),
+    ("S3", IM, "sgim-im:D3", {"late": 0.13}),
     ("S3b", "fishing", "demonstrations-first-sagg-riac:D3", {"late": 0.05}),
 ]
 """A claim, and the runs of which learner are otherwise, and how."""
@@ -213,3 +215,17 @@ def test_a_claim_about_another_world_needs_its_runs() -> None:
         "sgim-d:D3 in fishing-wide",
         "sagg-riac in fishing-wide",
     )
+
+
+def test_a_variant_has_its_own_runs_of_other_settings_and_no_other_variants() -> None:
+    runs = [
+        replace(made, header={**made.header, "experiment": "fishing-noisy"})
+        for where, learner in HOLDS
+        for made in (run(where, learner, 0, HOLDS[where, learner]),)
+        if where in (*SETTINGS, "fishing")
+    ]
+    wide = [run(WIDE, name, 0, HOLDS[WIDE, name]) for name in ("sagg-riac", "sgim-d:D3")]
+    worlds = linked(worlds_of([*runs, *wide]), "fishing")
+    found = decide(FISHING, next(w for w in worlds if w.name == "fishing-noisy")).by_id
+    assert found["H6"].findings
+    assert not found["F7"].findings

@@ -66,9 +66,8 @@ class Chapter:
         """Experiment, and settings that differ from the configuration → whose runs are needed."""
         found: dict[tuple[str, str], list[str]] = {}
         for learner in self.learners:
-            name, where = apart(learner)
-            experiment, _, settings = (where or self.experiment).partition(" with ")
-            found.setdefault((experiment, settings), []).append(name)
+            name, experiment, settings = apart(learner)
+            found.setdefault((experiment or self.experiment, settings), []).append(name)
         return found
 
     @property

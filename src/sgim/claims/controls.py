@@ -7,13 +7,14 @@ from sgim.claims.components import lower
 from sgim.claims.measures import Error
 
 
-def controls(teacher: str = "") -> tuple[Claim, ...]:
+def controls(teacher: str = "", ratio: str = "sgim-im") -> tuple[Claim, ...]:
     """SGIM-ACTS, SGIM-D and SGIM-IM against learners with the same parts that choose nothing.
 
     Args:
         teacher: Whom all of them ask, as in ``:D3``; empty where there is one only.
+        ratio: SGIM-IM, with its teacher and whatever constants it has in that world.
     """
-    acts, fixed, ratio = (f"{name}{teacher}" for name in ("sgim-acts", "sgim-d", "sgim-im"))
+    acts, fixed = f"sgim-acts{teacher}", f"sgim-d{teacher}"
     return (
         Claim(
             "S1",

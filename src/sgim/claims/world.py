@@ -36,7 +36,7 @@ class World:
     @property
     def name(self) -> str:
         """The experiment, and what differs from the base configuration."""
-        return f"{self.experiment} with {self.settings}" if self.settings else self.experiment
+        return _named(self.experiment, self.settings)
 
     @property
     def base(self) -> str:
@@ -50,16 +50,25 @@ class World:
 
     def has(self, learner: str) -> bool:
         """Whether there are runs of a learner, here or in the world that its name says."""
-        name, where = apart(learner)
-        if where is None:
-            return name in self.groups
-        return where in self.elsewhere and self.elsewhere[where].has(name)
+        name, world = self._found(learner)
+        return world is not None and name in world.groups
 
     def values(self, measure: Measure) -> dict[int | None, float]:
         """The measure of each run of its learner, by seed."""
-        name, where = apart(measure.learner)
-        world = self if where is None else self.elsewhere[where]
+        name, world = self._found(measure.learner)
+        assert world is not None
         return {run.seed: measure.of(run, world.movements) for run in world.groups[name]}
+
+    def _found(self, learner: str) -> tuple[str, World | None]:
+        """A learner's name without its world, and that world; None if it has no runs."""
+        name, experiment, settings = apart(learner)
+        if not experiment and not settings:
+            return name, self
+        return name, self.elsewhere.get(_named(experiment or self.experiment, settings))
+
+
+def _named(experiment: str, settings: str) -> str:
+    return f"{experiment} with {settings}" if settings else experiment
 
 
 def base_of(configuration: str) -> str:
@@ -67,20 +76,32 @@ def base_of(configuration: str) -> str:
     return configuration.partition(",")[0]
 
 
-def apart(learner: str) -> tuple[str, str | None]:
-    """A learner's name, and the world where its runs are: ``sgim-d:D3 in fishing-wide``."""
-    name, _, where = learner.partition(" in ")
-    return name, where or None
+def apart(learner: str) -> tuple[str, str, str]:
+    """A learner's name, its experiment, and settings that differ; empty if as in the world meant.
+
+    ``sgim-d in fishing-wide`` is of another experiment, ``sgim-d with demonstration_every=80`` of
+    the same one.
+    """
+    rest, _, settings = learner.partition(" with ")
+    name, _, experiment = rest.partition(" in ")
+    return name, experiment, settings
 
 
 def linked(worlds: Sequence[World], experiment: str) -> list[World]:
-    """The worlds; those of an experiment as it is know the others of their base configuration."""
-    return [
-        replace(world, elsewhere={w.name: w for w in worlds if w.base == world.base})
-        if world.name == experiment
-        else world
-        for world in worlds
-    ]
+    """The worlds, those without settings with what can be compared with them.
+
+    Those of the experiment know all worlds of their base configuration, those of its variants the
+    ones of the same variant.
+    """
+
+    def near(world: World) -> dict[str, World]:
+        return {
+            other.name: other
+            for other in worlds
+            if other.base == world.base and world.experiment in (experiment, other.experiment)
+        }
+
+    return [w if w.settings else replace(w, elsewhere=near(w)) for w in worlds]
 
 
 def read_runs(paths: Iterable[Path], choosers: Container[str | None]) -> list[MeasuredRun]:

@@ -8,6 +8,8 @@ from sgim.figures.error_curves import error_curves
 from sgim.figures.explored import explored
 from sgim.figures.fishing import fishing_movement
 from sgim.figures.hockey_shots import hockey_shots
+from sgim.figures.places import places
+from sgim.figures.progress import progress
 
 __all__ = [
     "choices",
@@ -16,4 +18,6 @@ __all__ = [
     "explored",
     "fishing_movement",
     "hockey_shots",
+    "places",
+    "progress",
 ]

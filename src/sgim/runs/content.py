@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from sgim.events import Told
+from sgim.events import Closed, Told
 from sgim.runs.journal import Journal
 from sgim.spaces import FloatArray
 from sgim.task import Task
@@ -58,6 +58,39 @@ def shown_in(path: str | Path, task: Task) -> FloatArray:
     with Journal.open(path, task, append=False) as journal:
         policies = [policy for (policy,) in journal.columns("answered", "policy")]
     return _points(policy for policy in policies if policy is not None)
+
+
+def shown_outcomes_of(path: str | Path, task: Task, kind: str) -> FloatArray:
+    """What demonstrations had produced of a kind that is a box, in order, shape ``(n, d)``.
+
+    Raises:
+        JournalError: If the journal cannot be read.
+    """
+    with Journal.open(path, task, append=False) as journal:
+        answered = journal.columns("answered", "kind", "point")
+    return _points(point for its, point in answered if its == kind)
+
+
+def progress_of(path: str | Path, task: Task) -> dict[str, tuple[FloatArray, FloatArray]]:
+    """For each mode, when its episodes with a goal ended, and what they gained per movement.
+
+    Returns:
+        Mode → movements made in episodes closed by then, and gain of competence per movement,
+        both of shape ``(n,)``.
+
+    Raises:
+        JournalError: If the journal cannot be read.
+    """
+    found: dict[str, list[tuple[float, float]]] = {}
+    made = 0
+    with Journal.open(path, task, append=False) as journal:
+        for event in journal.events(only=("closed",)):
+            assert isinstance(event, Closed)
+            made += event.movements
+            if event.before is not None and event.after is not None and event.movements:
+                gain = (event.after - event.before) / event.movements
+                found.setdefault(event.mode, []).append((float(made), gain))
+    return {mode: (np.array(pairs)[:, 0], np.array(pairs)[:, 1]) for mode, pairs in found.items()}
 
 
 def _points(packed: Iterable[bytes]) -> FloatArray:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 from tyro.conf import Positional, arg
 
 from sgim.errors import SgimError
-from sgim.figures import choices, choices_by_kind, error_curves, explored
+from sgim.figures import choices, choices_by_kind, error_curves, explored, places, progress
 from sgim.figures.curves import Band
 from sgim.figures.style import NothingToDrawError
 from sgim.runs.costs import Prices
@@ -36,6 +36,9 @@ def command(
     NAME-costs      the same over the time of robot and persons, if anybody was asked
     NAME-choices    modes and kinds of goal chosen over time, all seeds together
     NAME-strategies modes chosen for each kind of goal, by learners that choose both
+    NAME-progress   modes chosen over time, and what each gained per movement
+    NAME-outcomes   how often each learner's movements ended where
+    NAME-goals      how often each learner aimed where
     RUN-explored    what has been explored, for one run of each learner, or for --each
 
     The line is the interquartile mean of the runs and the band its 95 % bootstrap interval at
@@ -72,6 +75,9 @@ def command(
             (f"{stem}-costs", partial(error_curves, runs, band=band, prices=prices)),
             (f"{stem}-choices", partial(choices, runs)),
             (f"{stem}-strategies", partial(choices_by_kind, runs)),
+            (f"{stem}-progress", partial(progress, runs)),
+            (f"{stem}-outcomes", partial(places, runs, "outcomes")),
+            (f"{stem}-goals", partial(places, runs, "goals")),
             *((f"{path.stem}-explored", partial(explored, path)) for path in chosen),
         ]
         for title, draw in drawings:
