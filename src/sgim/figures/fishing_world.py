@@ -85,7 +85,7 @@ def repeated_movements(
     axes = figure.subplots()
     for number, policy in enumerate(policies):
         landed = _landings(world, policy, repetitions, rng)
-        x, y = landed.std(axis=0, ddof=1)
+        x, y = landed.std(axis=0, ddof=1) if len(landed) > 1 else (np.nan, np.nan)
         label = f"({x:.3f}, {y:.3f}) m, {len(landed)} of {repetitions} land"
         axes.plot(*landed.T, "o^sDvPX*"[number % 8], color=OKABE_ITO[number % 8], label=label)
     axes.set_aspect("equal", adjustable="datalim")
@@ -125,4 +125,5 @@ def _follow(axes: Axes, demonstration: Demonstration, column: int) -> None:
 
 def _landings(world: FishingRod, policy: Any, repetitions: int, rng: np.random.Generator) -> Any:
     outcomes = [world.execute(policy, None, rng) for _ in range(repetitions)]
-    return np.array([outcome["float"] for outcome in outcomes if "float" in outcome])
+    landed = [outcome["float"] for outcome in outcomes if "float" in outcome]
+    return np.array(landed).reshape(-1, 2)
