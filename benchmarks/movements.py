@@ -1,9 +1,9 @@
 """Time movements of the worlds of chapters 3 and 4.2, and the learner's share of them.
 
-Run it as ``python benchmarks/movements.py``. The world's time is that of random policies and of the
-policies that SGIM-D tries; the learner's is what a run takes beside: deciding, learning, the teacher
-and the journal, without evaluations. The least of several repetitions is printed, beside that of a
-fixed loop of small NumPy operations, since other work on the machine only makes them longer.
+Run it as ``python benchmarks/movements.py``. The world's time is that of random policies and of
+those that SGIM-D tries; the learner's is what a run takes beside: deciding, learning, the teacher
+and the journal, without evaluations. The least of several repetitions is printed, beside that of
+a fixed loop of small NumPy operations, since other work on the machine only makes them longer.
 """
 
 from __future__ import annotations
@@ -15,6 +15,7 @@ for _name in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"):
 
 import tempfile
 import time
+from contextlib import suppress
 from pathlib import Path
 
 import numpy as np
@@ -35,10 +36,8 @@ def milliseconds(policies: list[np.ndarray], world: object) -> float:
     rng = np.random.default_rng(0)
     begun = time.process_time()
     for policy in policies:
-        try:
+        with suppress(SgimError):
             world.execute(policy, None, rng)  # type: ignore[attr-defined]
-        except SgimError:
-            pass
     return 1000 * (time.process_time() - begun) / len(policies)
 
 
@@ -51,6 +50,7 @@ class Timed:
         self.deterministic = world.deterministic  # type: ignore[attr-defined]
 
     def execute(self, policy: object, context: object = None, rng: object = None) -> object:
+        """As the world does."""
         begun = time.process_time()
         try:
             return self.world.execute(policy, context, rng)  # type: ignore[attr-defined]
@@ -85,6 +85,6 @@ for name, (learner, movements, repetitions) in WORLDS.items():
         learning.append(spent[1])
     print(
         f"{name}: a random movement {min(random):.2f} ms ({min(random) / min(references):.0f} × "
-        f"reference), one of {learner} {min(moving):.2f} ms, and {min(learning):.2f} ms of learning, "
-        f"{min(learning) / min(moving):.1%} of it"
+        f"reference), one of {learner} {min(moving):.2f} ms, and {min(learning):.2f} ms of "
+        f"learning, {min(learning) / min(moving):.1%} of it"
     )

@@ -126,7 +126,7 @@ def test_an_unknown_demonstrator_is_refused() -> None:
 
 
 def test_missing_data_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(demonstrators, "KINAESTHETIC", "none.npz")
+    monkeypatch.setattr(demonstrators, "RECORDINGS", "none.npz")
     with pytest.raises(SgimError, match=r"no data 'none\.npz'"):
         fishing_demonstrations(3)
 
@@ -136,8 +136,9 @@ def test_what_is_written_is_read_again(tmp_path: Path, monkeypatch: pytest.Monke
     monkeypatch.setattr(demonstrators, "files", lambda package: tmp_path)
     recording = reaching(HOME + 0.3 * AMPLITUDES, 1.1)
     write_recordings(
-        tmp_path / "data" / demonstrators.KINAESTHETIC,
+        tmp_path / "data" / demonstrators.RECORDINGS,
         [Demonstration({"float": np.array([0.1, y])}, trajectory=recording) for y in (-0.2, 0.2)],
+        "float",
     )
     behind, ahead = fishing_demonstrations(3)
     assert behind.trajectory is not None
