@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any, Literal
 
 from sgim.claims.components import Component, Finding
+from sgim.claims.measures import Error
 from sgim.claims.world import World, apart
 from sgim.runs.contrasts import LEVEL
 from sgim.statistics import holm, least_pairs
@@ -69,6 +70,13 @@ class Chapter:
             name, experiment, settings = apart(learner)
             found.setdefault((experiment or self.experiment, settings), []).append(name)
         return found
+
+    @property
+    def moments(self) -> set[int]:
+        """Evaluations that its claims name, in movements."""
+        components = (part for claim in self.claims for part in claim.components)
+        measures = (m for part in components for m in (part.one, part.other))
+        return {m.at for m in measures if isinstance(m, Error) and m.at is not None}
 
     @property
     def choosers(self) -> set[str]:

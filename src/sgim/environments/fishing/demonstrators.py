@@ -28,7 +28,7 @@ LEARNED = {1: "fishing_learned_random.npz", 2: "fishing_learned_reliable.npz"}
 TILE = 1 / 6
 """Length of the sides of the tiles that teachers watch, in m; each has about one demonstration."""
 
-FLOOR_TILE = 1 / 7
+FLOOR_TILE = 1 / 6
 """The same for the floor, in sides of the view."""
 
 DEMONSTRATORS = {
