@@ -33,6 +33,8 @@ class Configuration:
     Attributes:
         name: ``"thesis"``, ``"modern"``, or a name of one's own.
         search: The goal-directed explorer, ``"nelder-mead"`` or ``"local"``.
+        answering: Which policy answers a goal: that of the ``"nearest"`` outcome, as in the thesis,
+            the most ``"reliable"`` one, the best by a ``"kernel"`` mean, or by a ``"local"`` model.
         search_movements: Movements of an autonomous or emulation episode.
         mimicry_movements: Movements of a mimicry episode (nIm of algorithm 3.2.1).
         mimicry_radius: ε of algorithm 3.2.1, in the policy's own units.
@@ -99,6 +101,7 @@ class Configuration:
     request_window: int = 20
     request_initiation: int = 10
     request_least: float = 0.1
+    answering: Literal["nearest", "reliable", "kernel", "local"] = "nearest"
 
     def __post_init__(self) -> None:
         for name in _AT_LEAST_ONE:
@@ -132,6 +135,7 @@ MODERN = Configuration(
     prior=0.5,
     first_demonstrations=200,
     news=True,
+    answering="local",
 )
 CONFIGURATIONS = {c.name: c for c in (THESIS, MODERN)}
 

@@ -10,7 +10,14 @@ from sgim.errors import SgimError
 from sgim.learner import Learner
 from sgim.memory import Memory
 from sgim.outcome import ExpectedGain, InterestMap, RegionTree, UniformGoals
-from sgim.policy import Explorer, LocalSearch, Mimicry, NearestModel, NelderMeadSearch
+from sgim.policy import (
+    Explorer,
+    LocalSearch,
+    Mimicry,
+    NearestModel,
+    NelderMeadSearch,
+    answering_of,
+)
 from sgim.strategy import DemonstrationsFirst, JointChoice, Mode, News, Strategy
 from sgim.streams import Streams
 from sgim.task import Task
@@ -38,7 +45,7 @@ class Parts:
         self.config = configuration_of(configuration)
         self.seed = seed
         self.interest = interest
-        self.model = NearestModel(Memory(task))
+        self.model = NearestModel(Memory(task), answering_of(self.config.answering))
 
     def learner(self, strategy: Strategy) -> Learner:
         """A learner with this strategy, and its recipe."""

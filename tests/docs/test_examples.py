@@ -296,7 +296,17 @@ def test_the_page_of_configurations_has_every_constant_as_it_is(name: str) -> No
     assert shown == {constant: str(getattr(configuration, constant)) for constant in names[1:]}
 
 
-PARTS = (NearestModel, NelderMeadSearch, LocalSearch, NoisyNearest, RegionTree, ExpectedGain)
+PARTS = (
+    NearestModel,
+    Reliable,
+    KernelMean,
+    LocalModel,
+    NelderMeadSearch,
+    LocalSearch,
+    NoisyNearest,
+    RegionTree,
+    ExpectedGain,
+)
 
 
 def test_the_page_of_configurations_has_the_constants_of_the_parts() -> None:

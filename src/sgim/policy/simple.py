@@ -123,7 +123,7 @@ class NoisyNearest(Stateless):
         memory = self.model.memory
         if goal is None or len(memory) < self.bootstrap or not len(memory.kinds[goal.kind]):
             return space.sample(episode.rng)
-        policy = self.model.best_policy(goal, episode.context)
+        policy = self.model.nearest_policy(goal, episode.context)
         if not isinstance(space, Box):
             return policy if episode.rng.random() > self.noise else space.sample(episode.rng)
         return space.clip(
