@@ -30,11 +30,12 @@ def print_chapter(chapter: Chapter, stream: TextIO) -> None:
     for claim in chapter.claims:
         _print_claim(claim, stream)
         print(table([[str(part)] for part in claim.components], indent=" " * 7), file=stream)
-    learners = ",".join(chapter.learners)
-    sweep = ("sgim", "sweep", chapter.experiment, "--learners", learners, "--seeds", _SEEDS)
     folder = f"runs/{chapter.name}-claims"
     print("\nTo decide them:", file=stream)
-    print(f"  {shell(*sweep, '--out', folder)}", file=stream)
+    for (experiment, settings), learners in chapter.sweeps.items():
+        sweep = ["sgim", "sweep", experiment, "--learners", ",".join(learners), "--seeds", _SEEDS]
+        sweep += ["--configuration", f"modern,{settings}"] if settings else []
+        print(f"  {shell(*sweep, '--out', folder)}", file=stream)
     print(f"  {shell('sgim', 'claims', chapter.name, '--runs', folder)}", file=stream)
 
 
@@ -119,7 +120,7 @@ def _print_plausible(plausible: Plausible, stream: TextIO) -> None:
 
 def _effect(finding: Finding) -> str:
     effect = finding.effect
-    if finding.component.one.unit == "error":
+    if finding.component.one.unit != "share":
         return f"× {interval(effect)}"
     points = Estimate(100 * effect.value, 100 * effect.low, 100 * effect.high)
     return f"{interval(points, '+')} points"

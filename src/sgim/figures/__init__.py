@@ -9,6 +9,8 @@ from sgim.figures.explored import explored
 from sgim.figures.fishing import fishing_movement
 from sgim.figures.hockey_shots import hockey_shots
 from sgim.figures.mixtures import mixture_interest, mixture_learning
+from sgim.figures.places import places
+from sgim.figures.progress import progress
 from sgim.figures.recognition import f_measures, recognised
 from sgim.figures.toys import contact_sheet, database
 from sgim.figures.vocal_classes import vocal_classes, vocal_stages
@@ -39,4 +41,6 @@ __all__ = [
     "vocal_stages",
     "vocal_strategies",
     "vocalisation",
+    "places",
+    "progress",
 ]

@@ -11,7 +11,15 @@ from typing import TYPE_CHECKING, Annotated, Literal
 from tyro.conf import Positional, arg
 
 from sgim.errors import SgimError
-from sgim.figures import choices, choices_by_kind, error_curves, explored, of_worlds
+from sgim.figures import (
+    choices,
+    choices_by_kind,
+    error_curves,
+    explored,
+    of_worlds,
+    places,
+    progress,
+)
 from sgim.figures.curves import Band
 from sgim.figures.style import NothingToDrawError
 from sgim.runs.costs import Prices
@@ -36,6 +44,9 @@ def command(
     NAME-costs      the same over the time of robot and persons, if anybody was asked
     NAME-choices    modes and kinds of goal chosen over time, all seeds together
     NAME-strategies modes chosen for each kind of goal, by learners that choose both
+    NAME-progress   modes chosen over time, and what each gained per movement
+    NAME-outcomes   how often each learner's movements ended where
+    NAME-goals      how often each learner aimed where
     RUN-explored    what has been explored, for one run of each learner, or for --each
 
     Where objects are recognised, also:
@@ -82,6 +93,9 @@ def command(
             (f"{stem}-costs", partial(error_curves, runs, band=band, prices=prices)),
             (f"{stem}-choices", partial(choices, runs)),
             (f"{stem}-strategies", partial(choices_by_kind, runs)),
+            (f"{stem}-progress", partial(progress, runs)),
+            (f"{stem}-outcomes", partial(places, runs, "outcomes")),
+            (f"{stem}-goals", partial(places, runs, "goals")),
             *((f"{path.stem}-explored", partial(explored, path)) for path in chosen),
             *of_worlds.drawings(stem, runs, chosen),
         ]
