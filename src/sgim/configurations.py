@@ -37,6 +37,8 @@ class Configuration(MixtureSettings):
         name: ``"thesis"``, ``"modern"``, or a name of one's own.
         search: The goal-directed explorer: ``"nelder-mead"``, ``"local"``, ``"pi2"``, or
             ``"cma-es"``, which needs the extra ``cma``.
+        answering: Which policy answers a goal: that of the ``"nearest"`` outcome, as in the thesis,
+            the most ``"reliable"`` one, the best by a ``"kernel"`` mean, or by a ``"local"`` model.
         search_movements: Movements of an autonomous or emulation episode.
         mimicry_movements: Movements of a mimicry episode (nIm of algorithm 3.2.1).
         mimicry_radius: ε of algorithm 3.2.1, in the policy's own units.
@@ -75,6 +77,11 @@ class Configuration(MixtureSettings):
         request_window: How many of the latest episodes of each mode count, ns.
         request_initiation: Episodes of each mode until which both are chosen alike, nbMin.
         request_least: Least probability of asking, and of not asking.
+        label_window: δ of eq. 2.2, even: how many of the latest competences of a label and mode
+            count; where goals are labels, as for those that follow.
+        label_uniform: p₁ of algorithm 2.2.3: how often any label and mode is chosen.
+        label_pick: Whether labels and modes are drawn in proportion to their interest, or the most
+            interesting is taken.
     """
 
     name: str
@@ -104,6 +111,10 @@ class Configuration(MixtureSettings):
     request_window: int = 20
     request_initiation: int = 10
     request_least: float = 0.1
+    label_window: int = 8
+    label_uniform: float = 0.25
+    label_pick: Literal["proportional", "argmax"] = "proportional"
+    answering: Literal["nearest", "reliable", "kernel", "local"] = "nearest"
 
     def __post_init__(self) -> None:
         for name in _AT_LEAST_ONE:
@@ -146,6 +157,7 @@ MODERN = Configuration(
     interest_uniform=0.1,
     interest_recent=0.02,
     interest_random_modes=0.05,
+    answering="local",
 )
 CONFIGURATIONS = {c.name: c for c in (THESIS, MODERN)}
 

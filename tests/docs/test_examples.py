@@ -23,6 +23,7 @@ from sgim.events import Answered, Ended, Opened, Told
 from sgim.mixture_settings import MixtureSettings
 from sgim.outcome.expected_gain import ExpectedGain
 from sgim.outcome.region_tree import RegionTree
+from sgim.policy import KernelMean, LocalModel, Reliable
 from sgim.policy.local_search import LocalSearch
 from sgim.policy.model import NearestModel
 from sgim.policy.nelder_mead import NelderMeadSearch
@@ -308,7 +309,17 @@ def test_the_page_of_configurations_has_every_constant_as_it_is(name: str) -> No
         }
 
 
-PARTS = (NearestModel, NelderMeadSearch, LocalSearch, NoisyNearest, RegionTree, ExpectedGain)
+PARTS = (
+    NearestModel,
+    Reliable,
+    KernelMean,
+    LocalModel,
+    NelderMeadSearch,
+    LocalSearch,
+    NoisyNearest,
+    RegionTree,
+    ExpectedGain,
+)
 
 
 def test_the_page_of_configurations_has_the_constants_of_the_parts() -> None:

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from sgim.experiments.vocal_history import VocalRun, with_history
+from sgim.figures.recognition import f_measures, recognised
 from sgim.figures.vocal_classes import vocal_classes, vocal_stages
 from sgim.figures.vocal_densities import vocal_densities
 from sgim.figures.vocal_sounds import vocal_sounds
@@ -30,9 +31,14 @@ def drawings(stem: str, runs: Sequence[RecordedRun], chosen: Collection[Path]) -
         runs: The runs.
         chosen: Journals of which figures of single runs are wanted.
     """
-    if runs[0].experiment != "vocal":
-        return []
+    if runs[0].experiment == "objects":
+        by_path = {run.path: run for run in runs}
+        told_apart = [(f"{p.stem}-f-measures", partial(f_measures, by_path[p])) for p in chosen]
+        return [(f"{stem}-recognised", partial(recognised, runs)), *told_apart]
+    return _vocal(stem, runs, chosen) if runs[0].experiment == "vocal" else []
 
+
+def _vocal(stem: str, runs: Sequence[RecordedRun], chosen: Collection[Path]) -> list[Drawing]:
     by_path = {run.path: run for run in runs}
 
     @cache
