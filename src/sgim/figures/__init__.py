@@ -18,6 +18,7 @@ from sgim.figures.vocal_densities import vocal_densities
 from sgim.figures.vocal_sounds import vocal_sounds
 from sgim.figures.vocal_strategies import vocal_strategies
 from sgim.figures.vocal_tract import draw_tract, vocal_articulators
+from sgim.figures.vocal_vowels import vocal_vowels
 from sgim.figures.vocalisation import vocalisation
 
 __all__ = [
@@ -39,6 +40,7 @@ __all__ = [
     "vocal_densities",
     "vocal_sounds",
     "vocal_stages",
+    "vocal_vowels",
     "vocal_strategies",
     "vocalisation",
     "places",
