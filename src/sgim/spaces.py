@@ -16,6 +16,7 @@ from typing import Any, Protocol, runtime_checkable
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from sgim.arrays import Arrays
 from sgim.errors import SpaceError, unknown
 
 FloatArray = NDArray[np.float64]
@@ -285,7 +286,7 @@ class Choices:
 
 
 def space_from_description(description: Mapping[str, Any]) -> Space:
-    """Make a `Box` or `Choices` again from what its ``describe`` gave.
+    """Make a `Box`, `Choices` or `Arrays` again from what its ``describe`` gave.
 
     Raises:
         SpaceError: If the description is of a space that is not part of the library.
@@ -297,6 +298,11 @@ def space_from_description(description: Mapping[str, Any]) -> Space:
         )
     if kind == "choices":
         return Choices(description["labels"])
+    if kind == "arrays":
+        fields = {
+            name: (dtype, columns) for name, (dtype, columns) in description["fields"].items()
+        }
+        return Arrays(fields, description["together"])
     raise SpaceError(
         f"a space described as {kind!r} cannot be rebuilt from a journal alone; "
         "pass the task that has it"

@@ -22,6 +22,7 @@ from sgim.environments.throwing_teachers import (
     partial_teachers,
     throwing_teachers,
 )
+from sgim.environments.vocal import VocalTract, ambient_language, vocal_goals
 
 __all__ = [
     "ARMS",
@@ -36,6 +37,8 @@ __all__ = [
     "PlanarArm",
     "Rollout",
     "ThrowingArm",
+    "VocalTract",
+    "ambient_language",
     "draw_context",
     "drawn_arm",
     "execute_all",
@@ -49,4 +52,5 @@ __all__ = [
     "reachable_goals",
     "throwing_goals",
     "throwing_teachers",
+    "vocal_goals",
 ]

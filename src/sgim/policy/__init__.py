@@ -1,7 +1,11 @@
 """The lower level: which policy to try for a goal, and what the learner knows."""
 
+from sgim.policy.answering import Answer, Answering, KernelMean, Nearest, Reliable
 from sgim.policy.explorer import Episode, Explorer
+from sgim.policy.local_model import LocalModel
 from sgim.policy.local_search import LocalSearch
+from sgim.policy.mixture_model import Learning, MixtureModel
+from sgim.policy.mixture_search import AroundRest, MixtureSearch
 from sgim.policy.model import CompetenceModel, InverseModel, NearestModel, NoAnswerError
 from sgim.policy.nelder_mead import NelderMeadSearch
 from sgim.policy.population import (
@@ -10,22 +14,36 @@ from sgim.policy.population import (
     PathIntegral,
     PopulationSearch,
 )
-from sgim.policy.simple import Mimicry, NoisyNearest, RandomPolicies
+from sgim.policy.simple import Mimicry, NoisyNearest, PolicyOfLabel, RandomPolicies
+from sgim.policy.ways import ANSWERING, answering_of
 
 __all__ = [
+    "ANSWERING",
+    "Answer",
+    "Answering",
+    "AroundRest",
     "CompetenceModel",
     "CovarianceAdaptation",
     "Episode",
     "Explorer",
     "InverseModel",
+    "Learning",
+    "KernelMean",
+    "LocalModel",
     "LocalSearch",
     "MakeDistribution",
     "Mimicry",
+    "MixtureModel",
+    "MixtureSearch",
+    "Nearest",
     "NearestModel",
     "NelderMeadSearch",
     "NoAnswerError",
     "NoisyNearest",
+    "PolicyOfLabel",
     "PathIntegral",
     "PopulationSearch",
     "RandomPolicies",
+    "Reliable",
+    "answering_of",
 ]

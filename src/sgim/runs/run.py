@@ -14,7 +14,7 @@ from sgim.errors import JournalError, SgimError
 from sgim.events import Evaluated, Session
 from sgim.learner import Learner
 from sgim.records import Outcome, Plan
-from sgim.runs.benchmark import Benchmark
+from sgim.runs.benchmark import Measures
 from sgim.runs.continuation import keep_journal, session_facts
 from sgim.runs.interrupt import InterruptWish
 from sgim.runs.journal import Journal
@@ -76,7 +76,7 @@ class Run:
         teachers: Mapping[str, Teacher] | None = None,
         *,
         journal: str | Path | None = None,
-        benchmark: Benchmark | None = None,
+        benchmark: Measures | None = None,
         evaluate_every: int = 1000,
         batch: int = 1,
         real: bool = False,
