@@ -27,6 +27,7 @@ SPINE = (
     {"experiments"},
     {"claims"},
     {"figures"},
+    {"reproductions"},
 )
 """Each may know those before it, and its own."""
 
@@ -36,7 +37,7 @@ WORLD = {"environments", "teachers", "primitives"}
 MEASURES = {"statistics"}
 """Pure functions on arrays: they know the words, and those who measure runs know them."""
 
-DRIVERS = ("runs", "experiments", "claims", "figures")
+DRIVERS = ("runs", "experiments", "claims", "figures", "reproductions")
 """What brings learners and worlds together, and measures them."""
 
 LEARNER_CODE = ("memory", "policy", "outcome", "strategy", "learner.py", "configurations.py")

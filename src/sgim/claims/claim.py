@@ -108,9 +108,13 @@ class Verdict:
             return min(against, key=lambda f: f.direction)
         return max(self.findings, key=lambda f: (f.p_of_claim, -f.direction, f.effect.value))
 
-    def as_json(self) -> dict[str, Any]:
-        """Everything, JSON-compatible."""
-        return {
+    def as_json(self, *, details: bool) -> dict[str, Any]:
+        """The verdict and the test that decides it, JSON-compatible.
+
+        Args:
+            details: Whether to add all tests, with the numbers of each run.
+        """
+        found = {
             "id": self.claim.id,
             "sentence": self.claim.sentence,
             "reading": self.claim.reading,
@@ -119,9 +123,11 @@ class Verdict:
             "needs": list(self.needs),
             "p": self.p,
             "p_holm": self.p_holm,
-            "deciding": str(self.deciding.component) if self.findings else None,
-            "components": [finding.as_json() for finding in self.findings],
+            "deciding": self.deciding.as_json(numbers=False) if self.findings else None,
         }
+        if details:
+            found["components"] = [finding.as_json(numbers=True) for finding in self.findings]
+        return found
 
 
 @dataclass(frozen=True)
@@ -145,8 +151,8 @@ class Verdicts:
         """The verdicts by the claim's id."""
         return {verdict.claim.id: verdict for verdict in self.verdicts}
 
-    def as_json(self) -> dict[str, Any]:
-        """Everything, JSON-compatible."""
+    def as_json(self, *, details: bool) -> dict[str, Any]:
+        """Verdict by verdict, JSON-compatible; with details, also all tests and their numbers."""
         return {
             "chapter": self.chapter.name,
             "experiment": self.world.experiment,
@@ -155,7 +161,7 @@ class Verdicts:
             "learners": {
                 name: [run.seed for run in runs] for name, runs in self.world.groups.items()
             },
-            "claims": [verdict.as_json() for verdict in self.verdicts],
+            "claims": [verdict.as_json(details=details) for verdict in self.verdicts],
             "notes": list(self.notes),
         }
 

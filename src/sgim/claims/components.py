@@ -172,24 +172,30 @@ class Finding:
             return f"{len(self.one)}, {len(self.other)}"
         return f"{len(self.one)} pairs"
 
-    def as_json(self) -> dict[str, Any]:
-        """Everything, JSON-compatible."""
+    def as_json(self, *, numbers: bool) -> dict[str, Any]:
+        """What it says, JSON-compatible.
+
+        Args:
+            numbers: Whether to add the numbers of each run.
+        """
         component = self.component
-        return {
+        found = {
             "component": str(component),
             "relation": component.relation,
             "times": component.times,
             "margin": component.margin,
             "unit": component.one.unit,
             "learners": component.learners,
+            "runs": self.runs,
             "seeds": self.seeds,
-            "one": self.one.tolist(),
-            "other": self.other.tolist(),
             "difference": self.difference.as_json(),
             "ratio": self.ratio.as_json(),
             "p": self.p,
             "direction": self.direction,
         }
+        if numbers:
+            found |= {"one": self.one.tolist(), "other": self.other.tolist()}
+        return found
 
 
 def lower(one: Measure, other: Measure | float, times: float = 1.0) -> Component:

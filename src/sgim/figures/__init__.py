@@ -8,6 +8,7 @@ from sgim.figures.error_curves import error_curves
 from sgim.figures.explored import explored
 from sgim.figures.fishing import fishing_movement
 from sgim.figures.hockey_shots import hockey_shots
+from sgim.figures.profiles import performance_profiles
 
 __all__ = [
     "choices",
@@ -16,4 +17,5 @@ __all__ = [
     "explored",
     "fishing_movement",
     "hockey_shots",
+    "performance_profiles",
 ]

@@ -53,7 +53,7 @@ def command(
       sgim sweep throwing-5 --learners sgim-acts,demonstrations-first --seeds 0-19 --out runs/s
       sgim claims throwing --runs runs/s
       sgim claims throwing --runs runs/s --configuration modern --details
-      sgim claims --runs runs/s --json
+      sgim claims --runs runs/s --json --details
 
     Args:
         chapters: Chapters whose claims to decide.
@@ -61,8 +61,9 @@ def command(
         configuration: Only runs of this configuration, and of it with other settings.
         at: Decide at this evaluation; runs that have not got there are left out.
         seed: Of the bootstrap.
-        details: Also print each claim's sentence and all its tests.
-        as_json: Print JSON with everything, also the numbers of each run.
+        details: Also print each claim's sentence and all its tests; in JSON, all tests with the
+            numbers of each run.
+        as_json: Print JSON.
     """
     chosen = [chapter(name) for name in dict.fromkeys(chapters or CHAPTERS)]
     if runs is None:
@@ -71,6 +72,6 @@ def command(
         return
     found = report(find_journals([runs]), chosen, configuration=configuration, at=at, seed=seed)
     if as_json:
-        print(json.dumps(found.as_json(), indent=2, ensure_ascii=False))
+        print(json.dumps(found.as_json(details=details), indent=1, ensure_ascii=False))
         return
     print_report(found, sys.stdout, details=details)
