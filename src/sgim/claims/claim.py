@@ -9,6 +9,7 @@ from typing import Any, Literal
 from sgim.claims.components import Component, Finding
 from sgim.claims.world import World
 from sgim.runs.contrasts import LEVEL
+from sgim.runs.sweep_run import seed_words
 from sgim.statistics import holm, least_pairs
 from sgim.streams import Streams
 
@@ -112,21 +113,24 @@ class Verdict:
         """The verdict and the test that decides it, JSON-compatible.
 
         Args:
-            details: Whether to add all tests, with the numbers of each run.
+            details: Whether to add sentence and reading, and all tests with the numbers of each
+                run.
         """
-        found = {
+        found: dict[str, Any] = {
             "id": self.claim.id,
-            "sentence": self.claim.sentence,
-            "reading": self.claim.reading,
             "by_construction": self.claim.by_construction,
             "verdict": self.word,
-            "needs": list(self.needs),
-            "p": self.p,
             "p_holm": self.p_holm,
+            "needs": list(self.needs),
             "deciding": self.deciding.as_json(numbers=False) if self.findings else None,
         }
         if details:
-            found["components"] = [finding.as_json(numbers=True) for finding in self.findings]
+            found |= {
+                "sentence": self.claim.sentence,
+                "reading": self.claim.reading,
+                "p": self.p,
+                "components": [finding.as_json(numbers=True) for finding in self.findings],
+            }
         return found
 
 
@@ -159,7 +163,8 @@ class Verdicts:
             "configuration": self.world.configuration,
             "at": self.world.movements,
             "learners": {
-                name: [run.seed for run in runs] for name, runs in self.world.groups.items()
+                name: seed_words([run.seed for run in runs if run.seed is not None])
+                for name, runs in self.world.groups.items()
             },
             "claims": [verdict.as_json(details=details) for verdict in self.verdicts],
             "notes": list(self.notes),

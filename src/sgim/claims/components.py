@@ -176,25 +176,29 @@ class Finding:
         """What it says, JSON-compatible.
 
         Args:
-            numbers: Whether to add the numbers of each run.
+            numbers: Whether to add the numbers of each run, and what the test is in detail.
         """
         component = self.component
-        found = {
+        found: dict[str, Any] = {
             "component": str(component),
-            "relation": component.relation,
-            "times": component.times,
-            "margin": component.margin,
             "unit": component.one.unit,
-            "learners": component.learners,
-            "runs": self.runs,
-            "seeds": self.seeds,
-            "difference": self.difference.as_json(),
-            "ratio": self.ratio.as_json(),
+            "effect": self.effect.as_json(),
             "p": self.p,
-            "direction": self.direction,
+            "n": self.runs,
         }
         if numbers:
-            found |= {"one": self.one.tolist(), "other": self.other.tolist()}
+            found |= {
+                "relation": component.relation,
+                "times": component.times,
+                "margin": component.margin,
+                "learners": component.learners,
+                "seeds": self.seeds,
+                "one": self.one.tolist(),
+                "other": self.other.tolist(),
+                "difference": self.difference.as_json(),
+                "ratio": self.ratio.as_json(),
+                "direction": self.direction,
+            }
         return found
 
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterable
 from importlib.resources import files
 
-from sgim.experiments.sweep_plan import Part
 from sgim.reproductions.html import paragraph, table, tag, text
 from sgim.reproductions.result import Result
 from sgim.reproductions.sections import plausible_table, section, tally
+from sgim.runs.sweep_run import seed_words
 
 _HOW = (
     "A claim is reproduced if all its tests point its way and its p-value, the largest of theirs, "
@@ -109,7 +109,7 @@ def _runs(result: Result) -> str:
             text(", ".join(part.experiments)),
             text(", ".join(part.learners)),
             text("; ".join(part.configurations)),
-            text(_seeds(part)),
+            text(seed_words(part.seeds)),
             text(part.movements or "the experiment's"),
         ]
         for part in result.parts
@@ -123,13 +123,6 @@ def _runs(result: Result) -> str:
     if made:
         parts += [paragraph("Made with:"), tag("ul", *made)]
     return tag("section", *parts)
-
-
-def _seeds(part: Part) -> str:
-    seeds = part.seeds
-    if len(seeds) > 2 and list(seeds) == list(range(seeds[0], seeds[-1] + 1)):
-        return f"{seeds[0]}–{seeds[-1]}"
-    return ", ".join(map(str, seeds))
 
 
 def _failures(result: Result) -> str:

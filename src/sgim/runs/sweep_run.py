@@ -8,7 +8,7 @@ import shutil
 import tempfile
 import traceback
 import uuid
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -75,6 +75,17 @@ class PlannedRun:
     def path(self, folder: str | Path) -> Path:
         """Where its journal is."""
         return self.experiment.journal_path(self.learner, self.seed, self.configuration, folder)
+
+
+def seed_words(seeds: Sequence[int]) -> str:
+    """Seeds as they are written: ``0-19``, or ``0,3,5-7``; each once, in order."""
+    words: list[list[int]] = []
+    for seed in sorted({*seeds}):
+        if words and seed == words[-1][-1] + 1:
+            words[-1].append(seed)
+        else:
+            words.append([seed])
+    return ",".join(f"{w[0]}-{w[-1]}" if len(w) > 1 else str(w[0]) for w in words)
 
 
 @dataclass(frozen=True)
