@@ -27,7 +27,7 @@ def test_hockey_is_run_evaluated_and_resumed_with_every_kind_of_learner(
 def test_hockey_is_as_long_as_in_the_thesis_and_measured_on_41_goals() -> None:
     hockey = experiment("hockey")
     assert hockey.movements == 8000
-    assert hockey.default_learner == "sgim-acts"
+    assert hockey.learner_name() == "sgim-acts"
     benchmark = hockey.benchmark(hockey.environment())
     assert {kind: len(points) for kind, points in benchmark.goals.items()} == {"hit": 41}
     assert benchmark.distance == "scaled"

@@ -16,13 +16,13 @@ WORDS = {"errors", "frozen", "spaces", "records", "streams", "task"}
 """The words of the domain, and what everything may use."""
 
 SPINE = (
-    {"events", "demonstrations"},
+    {"events", "demonstrations", "mixtures"},
     {"memory"},
     {"policy"},
     {"outcome"},
     {"strategy"},
     {"ledger", "transitions", "answers", "learner"},
-    {"configurations", "parts", "algorithms"},
+    {"mixture_settings", "configurations", "parts", "mixture_algorithms", "algorithms"},
     {"runs"},
     {"experiments"},
     {"claims"},
@@ -40,7 +40,16 @@ MEASURES = {"statistics"}
 DRIVERS = ("runs", "experiments", "claims", "figures", "reproductions")
 """What brings learners and worlds together, and measures them."""
 
-LEARNER_CODE = ("memory", "policy", "outcome", "strategy", "learner.py", "configurations.py")
+LEARNER_CODE = (
+    "mixtures",
+    "memory",
+    "policy",
+    "outcome",
+    "strategy",
+    "learner.py",
+    "mixture_settings.py",
+    "configurations.py",
+)
 
 WORLD_NAMES = {"throw", "throwing", "arm", "place", "fishing", "rod", "hockey", "puck", "mallet"}
 

@@ -1,8 +1,8 @@
 """Named learners: each a composition of policy level, outcome level and strategy level.
 
-==============================  ====================  ==============  ====================
+==============================  ====================  ==============  =====================
 name                            modes                 interest map    strategy
-==============================  ====================  ==============  ====================
+==============================  ====================  ==============  =====================
 random                          random                none            one mode, no goal
 random-goal-babbling            autonomous            uniform goals   joint choice
 sagg-riac                       autonomous            regions         joint choice
@@ -17,10 +17,13 @@ uniform-choice                  as sgim-acts          uniform goals   joint choi
 round-robin                     as sgim-acts          regions         every mode in turn
 demonstrations-first            mimic, autonomous     uniform goals   demonstrations first
 demonstrations-first-sagg-riac  mimic, autonomous     regions         demonstrations first
-==============================  ====================  ==============  ====================
+sagg-riac-gmm                   autonomous            mixture         at rest, joint choice
+sgim-acts-gmm                   emulate, autonomous   mixture         at rest, joint choice
+goal-babbling-gmm               autonomous            mixture         at rest, joint choice
+==============================  ====================  ==============  =====================
 
-The last four are controls that choosing must beat. Regions are weighed by progress or by expected
-gain, as the configuration says.
+The four before the last two are controls that choosing must beat. Regions are weighed by progress
+or by expected gain, as the configuration says, which may also take a mixture instead of them.
 
 Every function takes the same arguments:
 
@@ -41,6 +44,7 @@ from typing import Any, Protocol
 from sgim.configurations import configuration_of
 from sgim.errors import SgimError, unknown
 from sgim.learner import Learner
+from sgim.mixture_algorithms import goal_babbling_gmm, sagg_riac_gmm, sgim_acts_gmm
 from sgim.outcome import UniformGoals
 from sgim.parts import Given, MakeMap, Parts, Teachers
 from sgim.policy import NoisyNearest, RandomPolicies
@@ -267,6 +271,9 @@ ALGORITHMS: dict[str, Algorithm] = {
     "round-robin": round_robin,
     "demonstrations-first": demonstrations_first,
     "demonstrations-first-sagg-riac": demonstrations_first_sagg_riac,
+    "sagg-riac-gmm": sagg_riac_gmm,
+    "sgim-acts-gmm": sgim_acts_gmm,
+    "goal-babbling-gmm": goal_babbling_gmm,
 }
 
 

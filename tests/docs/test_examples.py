@@ -77,6 +77,13 @@ def test_a_learner_composed_by_hand_learns_in_all_its_modes() -> None:
     assert learner.solve("puck", [0.4, 0.6]).cost < 0.1
 
 
+def test_a_world_from_gymnasium_is_learned(tmp_path: Path) -> None:
+    lines = output(str(EXAMPLES / "gymnasium_world.py"), cwd=tmp_path).splitlines()
+    first, *_, last = [float(line.split()[-1]) for line in lines if "mean error" in line]
+    assert first == 1.0
+    assert last < 0.06
+
+
 def test_a_world_with_contexts_is_learned(tmp_path: Path) -> None:
     uphill, downhill = output(str(EXAMPLES / "contexts.py"), cwd=tmp_path).splitlines()[::-1]
     faster, slower = [float(line.split()[5]) for line in (uphill, downhill)]

@@ -25,9 +25,9 @@ class Part:
         configurations: Names of the learners' configurations, with settings that differ.
         teachers: For learners that ask one teacher which is not named: a run for each of these.
         movements: Movements of each run; the experiment's if None.
-        batch: Plans to carry out side by side within a run.
-        evaluate_every: Movements between evaluations; if None, at most 1000 and a quarter of a
-            run.
+        batch: Plans to carry out side by side within a run; the experiment's if None.
+        evaluate_every: Movements between evaluations; if None, at most the experiment's and a
+            quarter of a run.
     """
 
     experiments: tuple[str, ...]
@@ -36,7 +36,7 @@ class Part:
     configurations: tuple[str, ...] = ("modern",)
     teachers: tuple[str, ...] = ()
     movements: int | None = None
-    batch: int = 1
+    batch: int | None = None
     evaluate_every: int | None = None
 
     def runs(self) -> list[PlannedRun]:
@@ -54,10 +54,11 @@ class Part:
         for name, configuration in itertools.product(self.experiments, self.configurations):
             world = find_experiment(name)
             movements = world.movements if self.movements is None else self.movements
-            every = self.evaluate_every or evaluation_interval(movements)
+            batch = world.batch if self.batch is None else self.batch
+            every = self.evaluate_every or evaluation_interval(movements, world.evaluate_every)
             for learner in self._learners(world, configuration):
                 found += [
-                    PlannedRun(world, learner, seed, movements, configuration, self.batch, every)
+                    PlannedRun(world, learner, seed, movements, configuration, batch, every)
                     for seed in self.seeds
                 ]
         return found

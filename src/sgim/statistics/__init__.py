@@ -9,6 +9,7 @@ from sgim.statistics.bootstrap import (
     interquartile_estimate,
     profile_estimate,
 )
+from sgim.statistics.change_points import stages
 from sgim.statistics.effects import probability_lower, rank_biserial
 from sgim.statistics.significance import (
     equivalence_p,
@@ -39,4 +40,5 @@ __all__ = [
     "profile_estimate",
     "rank_biserial",
     "signed_rank_p",
+    "stages",
 ]

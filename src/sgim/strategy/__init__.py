@@ -3,7 +3,7 @@
 from sgim.strategy.imitation import FixedFrequency, ProgressRatio
 from sgim.strategy.modes import Mode
 from sgim.strategy.news import News
-from sgim.strategy.schedules import DemonstrationsFirst, RoundRobin
+from sgim.strategy.schedules import DemonstrationsFirst, RestFirst, RoundRobin
 from sgim.strategy.situation import Choice, Situation
 from sgim.strategy.strategy import Aimless, JointChoice, Strategy
 
@@ -16,6 +16,7 @@ __all__ = [
     "Mode",
     "News",
     "ProgressRatio",
+    "RestFirst",
     "RoundRobin",
     "Situation",
     "Strategy",

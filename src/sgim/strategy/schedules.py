@@ -1,4 +1,4 @@
-"""Fixed schedules of modes: the controls that choosing must beat."""
+"""Fixed schedules of modes: beginning at rest, and the controls that choosing must beat."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import numpy as np
 from sgim.outcome.interest import EpisodeReport, InterestMap
 from sgim.strategy.modes import Mode
 from sgim.strategy.situation import Choice, Situation
-from sgim.strategy.strategy import by_name
+from sgim.strategy.strategy import JointChoice, by_name
 
 
 class RoundRobin:
@@ -79,3 +79,31 @@ class DemonstrationsFirst:
         """Pass what was explored alone to the interest map."""
         if report.mode == self.alone.name:
             self.interest.update(report)
+
+
+class RestFirst:
+    """A number of policies around the one at rest, then what another strategy chooses.
+
+    Args:
+        resting: The mode that tries them, which needs no goal.
+        episodes: How many of the first episodes are in it.
+        then: What chooses afterwards.
+    """
+
+    def __init__(self, resting: Mode, episodes: int, then: JointChoice) -> None:
+        self.modes = by_name([*then.modes.values(), resting])
+        self.alone = then.alone
+        self.interest = then.interest
+        self.resting = resting
+        self.episodes = episodes
+        self.then = then
+
+    def choose(self, now: Situation, rng: np.random.Generator) -> Choice:
+        """The mode at rest at first, then the other strategy's choice."""
+        if now.episode < self.episodes:
+            return Choice(self.resting, None)
+        return self.then.choose(now, rng)
+
+    def update(self, report: EpisodeReport) -> None:
+        """Pass the report to the other strategy."""
+        self.then.update(report)

@@ -16,6 +16,7 @@ from sgim.figures import (
     choices_by_kind,
     error_curves,
     explored,
+    of_worlds,
     performance_profiles,
 )
 from sgim.figures.curves import Band
@@ -44,6 +45,12 @@ def command(
     NAME-choices    modes and kinds of goal chosen over time, all seeds together
     NAME-strategies modes chosen for each kind of goal, by learners that choose both
     RUN-explored    what has been explored, for one run of each learner, or for --each
+
+    Of vocal runs also:
+    NAME-classes    classes of sounds over time in all runs, and the stages counted
+    RUN-stages      the same of one run, with the types of sounds in each stage
+    RUN-densities   goals, commands and sounds over time
+    RUN-sounds      early and mature sounds, and those of the ambient language
 
     The line is the interquartile mean of the runs and the band its 95 % bootstrap interval at
     each evaluation; with --band quartiles, the median and the quartiles. sgim compare says
@@ -81,6 +88,7 @@ def command(
             (f"{stem}-choices", partial(choices, runs)),
             (f"{stem}-strategies", partial(choices_by_kind, runs)),
             *((f"{path.stem}-explored", partial(explored, path)) for path in chosen),
+            *of_worlds.drawings(stem, runs, chosen),
         ]
         for title, draw in drawings:
             file = out / f"{title}.{format}"

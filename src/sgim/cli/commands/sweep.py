@@ -30,10 +30,12 @@ def command(
     movements: Annotated[
         int | None, arg(metavar="INT", help_behavior_hint="(default: the experiment's)")
     ] = None,
-    batch: Annotated[int | None, arg(metavar="INT", help_behavior_hint="(default: 1)")] = None,
+    batch: Annotated[
+        int | None, arg(metavar="INT", help_behavior_hint="(default: the experiment's)")
+    ] = None,
     evaluate_every: Annotated[
         int | None,
-        arg(metavar="INT", help_behavior_hint="(default: at most 1000, and a quarter of the run)"),
+        arg(metavar="INT", help_behavior_hint="(default: at most the experiment's, and a quarter)"),
     ] = None,
     out: Annotated[Path | None, arg(metavar="DIR", help_behavior_hint="(default: runs)")] = None,
     where: Annotated[Where, arg(name="")] = Where(),  # noqa: B008 - frozen
@@ -102,7 +104,7 @@ def command(
             tuple(demonstrations_every(name, every) for name in configuration or ("modern",)),
             _names(teachers or ""),
             movements,
-            1 if batch is None else batch,
+            batch,
             evaluate_every,
         )
         parts, settings, title = (part,), {}, experiments
