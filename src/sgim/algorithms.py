@@ -43,6 +43,7 @@ from typing import Any, Protocol
 
 from sgim.configurations import configuration_of
 from sgim.errors import SgimError, unknown
+from sgim.labels import LABEL_ALGORITHMS, has_labels
 from sgim.learner import Learner
 from sgim.mixture_algorithms import goal_babbling_gmm, sagg_riac_gmm, sgim_acts_gmm
 from sgim.outcome import UniformGoals
@@ -277,6 +278,11 @@ ALGORITHMS: dict[str, Algorithm] = {
 }
 
 
+def algorithms_for(task: Task) -> Mapping[str, Algorithm]:
+    """The learners for a task, by name: where all goals are labels, those of `sgim.labels`."""
+    return LABEL_ALGORITHMS if has_labels(task) else ALGORITHMS
+
+
 def make(
     name: str,
     task: Task,
@@ -291,9 +297,10 @@ def make(
         UnknownNameError: If there is no such learner or configuration.
         SgimError: If the learner needs other teachers.
     """
-    if name not in ALGORITHMS:
-        raise unknown("learner", name, ALGORITHMS)
-    return ALGORITHMS[name](task, teachers, configuration=configuration, seed=seed)
+    known = algorithms_for(task)
+    if name not in known:
+        raise unknown("learner", name, known)
+    return known[name](task, teachers, configuration=configuration, seed=seed)
 
 
 def from_recipe(task: Task, recipe: Mapping[str, Any]) -> Learner:

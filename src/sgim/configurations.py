@@ -75,6 +75,11 @@ class Configuration(MixtureSettings):
         request_window: How many of the latest episodes of each mode count, ns.
         request_initiation: Episodes of each mode until which both are chosen alike, nbMin.
         request_least: Least probability of asking, and of not asking.
+        label_window: δ of eq. 2.2, even: how many of the latest competences of a label and mode
+            count; where goals are labels, as for those that follow.
+        label_uniform: p₁ of algorithm 2.2.3: how often any label and mode is chosen.
+        label_pick: Whether labels and modes are drawn in proportion to their interest, or the most
+            interesting is taken.
     """
 
     name: str
@@ -104,6 +109,9 @@ class Configuration(MixtureSettings):
     request_window: int = 20
     request_initiation: int = 10
     request_least: float = 0.1
+    label_window: int = 8
+    label_uniform: float = 0.25
+    label_pick: Literal["proportional", "argmax"] = "proportional"
 
     def __post_init__(self) -> None:
         for name in _AT_LEAST_ONE:
@@ -142,6 +150,7 @@ MODERN = Configuration(
     mixture_bounds="reflect",
     mixture_answers="nearest",
     mixture_scaled=True,
+    interest_weights="correlation",
     interest_uniform=0.1,
     interest_recent=0.02,
     interest_random_modes=0.05,

@@ -22,6 +22,7 @@ from sgim.environments import AirHockey
 from sgim.errors import JournalError
 from sgim.events import Answered, Ended, Opened, Told
 from sgim.experiments.sweep_plan import plan, read_sweep_file
+from sgim.mixture_settings import MixtureSettings
 from sgim.outcome.expected_gain import ExpectedGain
 from sgim.outcome.region_tree import RegionTree
 from sgim.policy.local_search import LocalSearch
@@ -315,13 +316,17 @@ def table(page: str, first_cell: str) -> dict[str, list[str]]:
 
 @pytest.mark.parametrize("name", list(CONFIGURATIONS))
 def test_the_page_of_configurations_has_every_constant_as_it_is(name: str) -> None:
-    rows = table("docs/configurations.md", "constant")
-    names = [field.name for field in fields(Configuration)]
-    assert list(rows) == names[1:]
+    of_mixtures = [field.name for field in fields(MixtureSettings)]
+    apart = {"name", *of_mixtures}
+    others = [field.name for field in fields(Configuration) if field.name not in apart]
     column = list(CONFIGURATIONS).index(name)
-    configuration = CONFIGURATIONS[name]
-    shown = {constant: cells[column] for constant, cells in rows.items()}
-    assert shown == {constant: str(getattr(configuration, constant)) for constant in names[1:]}
+    for first_cell, names in (("constant", others), ("constant of mixtures", of_mixtures)):
+        rows = table("docs/configurations.md", first_cell)
+        assert list(rows) == names
+        shown = {constant: cells[column] for constant, cells in rows.items()}
+        assert shown == {
+            constant: str(getattr(CONFIGURATIONS[name], constant)) for constant in names
+        }
 
 
 PARTS = (NearestModel, NelderMeadSearch, LocalSearch, NoisyNearest, RegionTree, ExpectedGain)

@@ -12,7 +12,7 @@ from sgim.configurations import Configuration
 from sgim.environments.base import MinimalEnvironment
 from sgim.errors import JournalError, SgimError, UnknownNameError, unknown
 from sgim.learner import Learner
-from sgim.runs.benchmark import Benchmark
+from sgim.runs.benchmark import Measures
 from sgim.runs.journal import Journal
 from sgim.runs.journal_reading import header_of
 from sgim.runs.run import Run
@@ -37,8 +37,8 @@ class Experiment:
         movements: How many movements a run has by default.
         alone: The learner of a run without teachers, when none is named.
         taught: The learner of a run with teachers, when none is named.
-        default_teacher: The only teacher of a run for which none is named; `NO_TEACHER` for none,
-            None for all.
+        default_teacher: The only teacher of a run for which none is named; None for all,
+            `NO_TEACHER` for none if no learner is named either, else all.
         batch: How many movements a run carries out side by side by default.
         evaluate_every: Most movements between evaluations by default.
         variant_of: Name of the experiment of which this is a variant, if it is one.
@@ -47,7 +47,7 @@ class Experiment:
     name: str
     summary: str
     environment: Callable[[], MinimalEnvironment]
-    benchmark: Callable[[MinimalEnvironment], Benchmark]
+    benchmark: Callable[[MinimalEnvironment], Measures]
     teachers: Mapping[str, str] = field(default_factory=dict)
     make_teachers: Callable[[], Mapping[str, Teacher]] = dict
     unit: str = "share of the outcome space"
@@ -68,7 +68,9 @@ class Experiment:
         """
         if learner is None:
             teacher = self.default_teacher if teacher is None else teacher
-            learner = self.taught if self.teachers and teacher != NO_TEACHER else self.alone
+            if teacher == NO_TEACHER:
+                return self.alone
+            learner = self.taught if self.teachers else self.alone
         return learner if teacher is None else f"{learner.partition(':')[0]}:{teacher}"
 
     def learner(
@@ -84,16 +86,18 @@ class Experiment:
                 way round; or if it needs one teacher and that is not named.
         """
         algorithm, colon, teacher = name.partition(":")
-        if algorithm not in algorithms.ALGORITHMS:
-            raise unknown("learner", algorithm, algorithms.ALGORITHMS)
+        task = self.environment().task
+        known = algorithms.algorithms_for(task)
+        if algorithm not in known:
+            raise unknown("learner", algorithm, known)
         if colon and teacher not in (*self.teachers, NO_TEACHER):
             if not self.teachers:
                 raise SgimError(f"{self.name} has no teachers; leave {teacher!r} out")
             raise unknown(f"teacher of {self.name}", teacher, self.teachers)
         chosen = configurations.configuration_of(configuration)
         named = [] if teacher == NO_TEACHER else [teacher]
-        teachers: Sequence[str] = named if colon else list(self.teachers)
-        task = self.environment().task
+        usual = [t for t in self.teachers if self.default_teacher in (t, None, NO_TEACHER)]
+        teachers: Sequence[str] = named if colon else usual
         try:
             learner = algorithms.make(algorithm, task, teachers, configuration=chosen, seed=seed)
         except UnknownNameError:

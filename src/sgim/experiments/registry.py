@@ -15,6 +15,7 @@ from sgim.environments.obstacle_arm import ObstacleArm
 from sgim.errors import unknown
 from sgim.experiments.experiment import Experiment
 from sgim.experiments.fishing import FISHING
+from sgim.experiments.objects import OBJECTS
 from sgim.experiments.throwing import THROWING, THROWING_VARIANTS
 from sgim.experiments.vocal import VOCAL
 from sgim.runs.benchmark import Benchmark
@@ -75,6 +76,7 @@ EXPERIMENTS = {
         *THROWING_VARIANTS,
         HOCKEY,
         *FISHING,
+        OBJECTS,
         VOCAL,
         *(_arm(name) for name in ARMS),
         ACROBOT,

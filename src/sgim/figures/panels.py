@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
+from sgim.experiments.recognition_benchmark import TAKEN_FOR
 from sgim.figures.style import new_figure
 from sgim.runs.measured import MeasuredRun
 from sgim.spaces import FloatArray
@@ -24,7 +25,7 @@ _LEGEND_SIZE = 8.0  # points
 
 def error_kinds(runs: Sequence[MeasuredRun]) -> list[str]:
     """Kinds of goal whose errors are drawn: with their mean, ``total``, if there are several."""
-    kinds = list(runs[0].evaluations[-1].errors)
+    kinds = [k for k in runs[0].evaluations[-1].errors if not k.startswith(TAKEN_FOR)]
     if all(e.errors["total"] == e.errors[kinds[0]] for run in runs for e in run.evaluations):
         kinds.remove("total")  # there is one kind only
     return kinds

@@ -2,7 +2,7 @@
 
 from sgim.outcome.absolute_progress import AbsoluteProgress
 from sgim.outcome.expected_gain import ExpectedGain
-from sgim.outcome.interest import EpisodeReport, InterestMap, UniformGoals
+from sgim.outcome.interest import EpisodeReport, Favourite, InterestMap, UniformGoals
 from sgim.outcome.mixture_interest import MixtureInterest
 from sgim.outcome.progress import CompetenceChange, InterestMeasure, MeanProgress, Record
 from sgim.outcome.region_tree import RegionTree
@@ -13,6 +13,7 @@ __all__ = [
     "CompetenceChange",
     "EpisodeReport",
     "ExpectedGain",
+    "Favourite",
     "InterestMap",
     "InterestMeasure",
     "InterestTable",

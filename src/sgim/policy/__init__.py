@@ -12,7 +12,7 @@ from sgim.policy.population import (
     PathIntegral,
     PopulationSearch,
 )
-from sgim.policy.simple import Mimicry, NoisyNearest, RandomPolicies
+from sgim.policy.simple import Mimicry, NoisyNearest, PolicyOfLabel, RandomPolicies
 
 __all__ = [
     "AroundRest",
@@ -31,6 +31,7 @@ __all__ = [
     "NelderMeadSearch",
     "NoAnswerError",
     "NoisyNearest",
+    "PolicyOfLabel",
     "PathIntegral",
     "PopulationSearch",
     "RandomPolicies",

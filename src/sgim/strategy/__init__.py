@@ -3,6 +3,7 @@
 from sgim.strategy.imitation import FixedFrequency, ProgressRatio
 from sgim.strategy.modes import Mode
 from sgim.strategy.news import News
+from sgim.strategy.presentation import Presentation
 from sgim.strategy.schedules import DemonstrationsFirst, RestFirst, RoundRobin
 from sgim.strategy.situation import Choice, Situation
 from sgim.strategy.strategy import Aimless, JointChoice, Strategy
@@ -15,6 +16,7 @@ __all__ = [
     "JointChoice",
     "Mode",
     "News",
+    "Presentation",
     "ProgressRatio",
     "RestFirst",
     "RoundRobin",

@@ -46,6 +46,10 @@ def command(
     NAME-strategies modes chosen for each kind of goal, by learners that choose both
     RUN-explored    what has been explored, for one run of each learner, or for --each
 
+    Where objects are recognised, also:
+    NAME-recognised pictures recognised over episodes
+    RUN-f-measures  how well each object is told apart, and which was manipulated
+
     Of vocal runs also:
     NAME-classes    classes of sounds over time in all runs, and the stages counted
     RUN-stages      the same of one run, with the types of sounds in each stage

@@ -22,7 +22,12 @@ def command(
         arg(metavar="NAME", help_behavior_hint="(default: the experiment's)"),
     ] = None,
     teacher: Annotated[
-        str | None, arg(metavar="NAME", help_behavior_hint="(default: the experiment's)")
+        str | None,
+        arg(
+            metavar="NAME",
+            aliases=("--caregiver",),
+            help_behavior_hint="(default: the experiment's)",
+        ),
     ] = None,
     configuration: Annotated[str, arg(metavar="NAME")] = "modern",
     every: Annotated[
