@@ -3,10 +3,18 @@
 from __future__ import annotations
 
 from sgim.errors import unknown
-from sgim.reproductions import hockey, throwing
+from sgim.reproductions import hockey, objects, throwing, vocal
 from sgim.reproductions.declaration import Reproduction
 
-REPRODUCTIONS = {one.name: one for one in (throwing.REPRODUCTION, hockey.REPRODUCTION)}
+REPRODUCTIONS = {
+    one.name: one
+    for one in (
+        objects.REPRODUCTION,
+        throwing.REPRODUCTION,
+        hockey.REPRODUCTION,
+        vocal.REPRODUCTION,
+    )
+}
 
 
 def reproduction(name: str) -> Reproduction:
