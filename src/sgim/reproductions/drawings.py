@@ -2,8 +2,13 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 from sgim.figures import choices, choices_by_kind, error_curves, performance_profiles
 from sgim.reproductions.declaration import Drawing
+
+_COLUMNS = 3
+"""Panels in a row, at most, so that a page's width shows them at a size that can be read."""
 
 
 def errors(name: str, title: str, learners: tuple[str, ...] = ()) -> Drawing:
@@ -12,7 +17,9 @@ def errors(name: str, title: str, learners: tuple[str, ...] = ()) -> Drawing:
         "Error over the benchmark, by movements made: the interquartile mean of the runs, and its "
         "95 % bootstrap interval at each evaluation. Lower is better."
     )
-    return Drawing(name, title, caption, error_curves, error_curves, learners)
+    return Drawing(
+        name, title, caption, partial(error_curves, columns=_COLUMNS), error_curves, learners
+    )
 
 
 def profiles(name: str, title: str, learners: tuple[str, ...] = ()) -> Drawing:
@@ -22,7 +29,14 @@ def profiles(name: str, title: str, learners: tuple[str, ...] = ()) -> Drawing:
         "with its 95 % bootstrap interval. Farther left is better; a line that is nowhere below "
         "another is of the learner that is better throughout."
     )
-    return Drawing(name, title, caption, performance_profiles, performance_profiles, learners)
+    return Drawing(
+        name,
+        title,
+        caption,
+        partial(performance_profiles, columns=_COLUMNS),
+        performance_profiles,
+        learners,
+    )
 
 
 def choices_over_time(name: str, title: str, learners: tuple[str, ...]) -> Drawing:
