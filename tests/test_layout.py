@@ -34,6 +34,7 @@ SPINE = (
     {"experiments"},
     {"claims"},
     {"figures"},
+    {"reproductions"},
 )
 """Each may know those before it, and its own."""
 
@@ -46,7 +47,7 @@ WORLD = {"environments", "teachers", "primitives"}
 MEASURES = {"statistics"}
 """Pure functions on arrays: they know the words, and those who measure runs know them."""
 
-DRIVERS = ("runs", "experiments", "claims", "figures")
+DRIVERS = ("runs", "experiments", "claims", "figures", "reproductions")
 """What brings learners and worlds together, and measures them."""
 
 LEARNER_CODE = (
