@@ -98,5 +98,5 @@ def test_what_is_no_features_is_refused() -> None:
     with pytest.raises(SpaceError, match="cannot be encoded"):
         space.encode({"a": np.zeros((1, 2), np.float32)})
     for wrong in ({}, {"a": ("U3", 1)}, {"a": ("float32", 0)}):
-        with pytest.raises(SpaceError, match="expected a number type|needs one or more fields"):
+        with pytest.raises(SpaceError, match=r"expected a number type|needs one or more fields"):
             Arrays(wrong)
