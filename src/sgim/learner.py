@@ -93,6 +93,11 @@ class Learner(Transitions, Answers):
         """The plans that are out, oldest first."""
         return [plan for _, (plan, _) in sorted(self.ledger.plans.items())]
 
+    @property
+    def absent(self) -> frozenset[str]:
+        """The teachers who cannot be asked now."""
+        return frozenset(self._absent)
+
     # Deciding.
 
     def ask(self, context: Any = None) -> Plan:
