@@ -27,6 +27,7 @@ SPINE = (
     {"experiments"},
     {"claims"},
     {"figures"},
+    {"web"},
 )
 """Each may know those before it, and its own."""
 
@@ -36,7 +37,7 @@ WORLD = {"environments", "teachers", "primitives"}
 MEASURES = {"statistics"}
 """Pure functions on arrays: they know the words, and those who measure runs know them."""
 
-DRIVERS = ("runs", "experiments", "claims", "figures")
+DRIVERS = ("runs", "experiments", "claims", "figures", "web")
 """What brings learners and worlds together, and measures them."""
 
 LEARNER_CODE = ("memory", "policy", "outcome", "strategy", "learner.py", "configurations.py")
@@ -47,7 +48,7 @@ ORDINARY_WORDS = {("outcome", "place")}
 """Identifiers that are the English word: a region tree's records have a place in the unit box."""
 
 LONGEST_FILE = 350
-HEAVY = ("scipy", "matplotlib", "tyro", "rich", "joblib", "mujoco")
+HEAVY = ("scipy", "matplotlib", "tyro", "rich", "joblib", "mujoco", "starlette", "uvicorn")
 
 
 def allowed(part: str) -> set[str] | None:

@@ -124,6 +124,11 @@ class Experiment:
         """
         environment = self.environment()
         made = self.make_teachers()
+        if unknown_ := [name for name in learner.teachers if name not in made]:
+            raise SgimError(
+                f"{self.name} has no teacher {', '.join(unknown_)}: this learner is taught by a "
+                f"person; go on with sgim teach {self.name} --journal PATH"
+            )
         label = self.label(learner)
         named = {} if label is None else {"learner": label}
         return Run(

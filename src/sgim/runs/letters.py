@@ -184,6 +184,11 @@ class LetterBox:
             ((number,),) = db.execute("SELECT number FROM letters WHERE id = ?", (id,))
         return int(number)
 
+    def has(self, id: str) -> bool:  # noqa: A002 - it is the letter's
+        """Whether a letter of this id was sent."""
+        with self._connection() as db:
+            return bool(db.execute("SELECT 1 FROM letters WHERE id = ?", (id,)).fetchall())
+
     def said(self, ids: list[str]) -> dict[str, str]:
         """What came of those of these letters that were taken up."""
         marks = ", ".join("?" * len(ids))

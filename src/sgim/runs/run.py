@@ -143,6 +143,11 @@ class Run:
         """Movements made so far."""
         return self.learner.movements
 
+    @property
+    def asks_persons(self) -> bool:
+        """Whether some of its teachers are persons who answer later."""
+        return self._asking is not None
+
     def warm_start(self, journal: str | Path) -> int:
         """Let the learner observe all trials of another run, before its own first.
 

@@ -92,23 +92,18 @@ class FishingRod(Environment):
                 generator.
             SgimError: If the simulation becomes unstable.
         """
-        if trajectory.joints != JOINTS or trajectory.unit != "rad":
-            raise SpaceError(
-                f"trajectory is of joints {', '.join(trajectory.joints)} in {trajectory.unit}, "
-                f"expected {', '.join(JOINTS)} in rad"
-            )
-        recorded = trajectory.times - trajectory.times[0]
-
-        def path(times: FloatArray) -> FloatArray:
-            columns = [np.interp(times, recorded, column) for column in trajectory.positions.T]
-            return np.stack(columns, axis=1)
-
-        return self._outcome(path, float(recorded[-1]), rng)
+        path, duration = _recorded(trajectory)
+        return self._outcome(path, duration, rng)
 
     def positions(self, policy: Any) -> tuple[tuple[str, ...], FloatArray]:
         """Where all bodies are during a movement without noise; see `Simulator.positions`."""
         point = FISHING.policy_space.check(policy, "policy")
         return self._simulator.positions(FISHING.path(point, self._times(FISHING.duration(point))))
+
+    def positions_led(self, trajectory: Trajectory) -> tuple[tuple[str, ...], FloatArray]:
+        """As `positions`, for an arm that is led as in `follow`, without noise."""
+        path, duration = _recorded(trajectory)
+        return self._simulator.positions(path(self._times(duration)))
 
     def _outcome(self, path: Path, duration: float, rng: np.random.Generator | None) -> Outcome:
         set_points = commanded(path, self._times(duration), self.noise, rng)
@@ -119,3 +114,19 @@ class FishingRod(Environment):
         """Times of the steps of a movement that lasts ``duration`` and is then held."""
         steps = math.ceil((duration + HOLD) / self.step)
         return np.asarray(np.arange(steps) * self.step, dtype=np.float64)
+
+
+def _recorded(trajectory: Trajectory) -> tuple[Path, float]:
+    """The set-points at given times of a recorded movement, and how long it lasts in s."""
+    if trajectory.joints != JOINTS or trajectory.unit != "rad":
+        raise SpaceError(
+            f"trajectory is of joints {', '.join(trajectory.joints)} in {trajectory.unit}, "
+            f"expected {', '.join(JOINTS)} in rad"
+        )
+    recorded = trajectory.times - trajectory.times[0]
+
+    def path(times: FloatArray) -> FloatArray:
+        columns = [np.interp(times, recorded, column) for column in trajectory.positions.T]
+        return np.stack(columns, axis=1)
+
+    return path, float(recorded[-1])

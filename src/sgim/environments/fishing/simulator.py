@@ -53,7 +53,7 @@ class Simulator:
 
     def __init__(self, variant: Variant) -> None:
         self._mujoco = mujoco()
-        self._model, self._start = _prepared(variant)
+        self._model, self._start = prepared(variant)
         self._data = self._mujoco.MjData(self._model)
         self._float = int(self._model.body("float").id)
         self.step = variant.step
@@ -168,8 +168,8 @@ class Simulator:
 
 
 @cache
-def _prepared(variant: Variant) -> tuple[Any, FloatArray]:
-    """The model, and the joint angles at home with the line hanging at rest."""
+def prepared(variant: Variant) -> tuple[Any, FloatArray]:
+    """The MuJoCo model, and its joint angles at home with the line hanging at rest."""
     engine = mujoco()
     settling = engine.MjModel.from_xml_string(rod_model(variant, settling=True))
     data = engine.MjData(settling)
