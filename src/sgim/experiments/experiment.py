@@ -16,7 +16,7 @@ from sgim.runs.benchmark import Benchmark
 from sgim.runs.journal import Journal
 from sgim.runs.journal_reading import header_of
 from sgim.runs.run import Run
-from sgim.teachers import Teacher
+from sgim.teachers import RemoteTeacher, Teacher
 
 
 @dataclass(frozen=True)
@@ -40,7 +40,7 @@ class Experiment:
     environment: Callable[[], MinimalEnvironment]
     benchmark: Callable[[MinimalEnvironment], Benchmark]
     teachers: Mapping[str, str] = field(default_factory=dict)
-    make_teachers: Callable[[], Mapping[str, Teacher]] = dict
+    make_teachers: Callable[[], Mapping[str, Teacher | RemoteTeacher]] = dict
     unit: str = "share of the outcome space"
     movements: int = 8000
     variant_of: str | None = None

@@ -83,7 +83,8 @@ class Letter:
 
 def letter_of(row: tuple[Any, ...]) -> Letter:
     """A letter from its row, whose columns are those that `select_letters` names."""
-    return Letter(*row[:7], json.loads(row[7]))
+    number, name, what, teacher, plan, person, moment, detail = row
+    return Letter(number, name, what, teacher, plan, person, moment, json.loads(detail))
 
 
 def select_letters(where: str) -> str:

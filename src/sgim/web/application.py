@@ -174,8 +174,8 @@ class Site:
                         self.pages.tell_all(said)
                     desk = await self._run(lesson.desk, going)
                     self._conversation.desk = desk
-                    now = [[(a.plan, round(a.waiting + a.left)) for a in desk.requests]]
-                    now += [desk.status, desk.time_limit, desk.per_hour, desk.left, going]
+                    asked = [(a.plan, round(a.waiting + a.left)) for a in desk.requests]
+                    now = (asked, desk.status, desk.time_limit, desk.per_hour, desk.left, going)
                     if now != before:
                         before = now
                         self.pages.tell_all(desk)

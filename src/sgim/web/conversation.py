@@ -5,7 +5,7 @@ from __future__ import annotations
 import asyncio
 from collections.abc import Callable, Sequence
 from concurrent.futures import Executor
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 
@@ -42,6 +42,9 @@ from sgim.web.protocol import (
 )
 from sgim.web.scenes import Scene, scene_of
 from sgim.web.watching import Watched
+
+
+T = TypeVar("T")
 
 
 class Conversation:
@@ -150,10 +153,9 @@ class Conversation:
                 return await self._run(lesson.imported, message)
             case Accept() | Decline() | Skip() | Extend() | Suggest() | Arrange():
                 try:
-                    said: Said = await self._run(lesson.send, message, page.person)
+                    return await self._run(lesson.send, message, page.person)
                 except SgimError as error:
                     return Said(message.id, "refused", f"{error}")
-                return said
         raise SgimError("this message is not for a lesson")
 
     def _recalled(self, message: Recall) -> Recalled:
@@ -177,5 +179,5 @@ class Conversation:
         expected = np.asarray(solution.expected).tolist()
         return Recalled(message.run, goal, "", expected, solution.cost, movement, shapes)
 
-    async def _run(self, function: Callable[..., Any], *arguments: Any) -> Any:
+    async def _run(self, function: Callable[..., T], *arguments: Any) -> T:
         return await asyncio.get_running_loop().run_in_executor(self._worker, function, *arguments)

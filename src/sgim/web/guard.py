@@ -75,16 +75,14 @@ class Guard:
             return
         await self._application(scope, receive, _with_headers(send))
 
-    def _refusal(
-        self, scope: Scope, headers: list[tuple[bytes, bytes]]
-    ) -> tuple[int, str] | None:
+    def _refusal(self, scope: Scope, headers: list[tuple[bytes, bytes]]) -> tuple[int, str] | None:
         hosts = [value for name, value in headers if name == b"host"]
         if len(hosts) != 1 or hosts[0] not in self._hosts:
             return 421, "This server does not answer to that name."
         origins = [value for name, value in headers if name == b"origin"]
-        if scope["type"] == "websocket" or origins:
-            if len(origins) != 1 or origins[0] not in self._origins:
-                return 403, "Only the page itself may connect."
+        ours = len(origins) == 1 and origins[0] in self._origins
+        if not ours and (scope["type"] == "websocket" or origins):
+            return 403, "Only the page itself may connect."
         if scope["type"] == "http" and scope["method"] not in ("GET", "HEAD"):
             return 405, "Everything that changes something goes over the page's websocket."
         return None

@@ -232,7 +232,8 @@ class Lesson:
         if row is None:
             return None
         facts = json.loads(row[0])
-        return tuple(None if facts[key] is None else -facts[key] for key in ("before", "after"))
+        before, after = (None if facts[k] is None else -facts[k] for k in ("before", "after"))
+        return before, after
 
     # Requests.
 

@@ -57,9 +57,13 @@ def _names() -> frozenset[str]:
     return frozenset(_KNOWN)
 
 
-@cache
 def hints(message: type[Any]) -> dict[str, Any]:
     """Field → type with limits, of a class of this protocol."""
+    return _hints(message)
+
+
+@cache
+def _hints(message: Any) -> dict[str, Any]:
     found = get_type_hints(message, vars(protocol), include_extras=True)
     return {f.name: found[f.name] for f in fields(message)}
 
@@ -116,5 +120,3 @@ def _wrong(where: str, expected: str) -> NoReturn:
 
 def _refuse(name: str) -> NoReturn:
     raise MessageError(f"{name} is not a finite number")
-
-

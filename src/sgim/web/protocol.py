@@ -257,7 +257,7 @@ class Joint:
 
 @dataclass(frozen=True)
 class Role:
-    """Who is in control: this page, another (by its person's name), or nobody; and how many look on."""
+    """Whether this page is in control, whose is if not, and how many pages there are."""
 
     mine: bool
     holder: str
@@ -578,4 +578,3 @@ FromServer = (
     | Refused
 )
 """Everything that the server may send."""
-

@@ -41,9 +41,9 @@ def regions_of(learner: Learner) -> list[Region]:
     regions = []
     for leaf in drawn:
         box = interest.spaces[leaf.kind]
-        corners = [box.decode(c[: box.dimension]).tolist() for c in (leaf.low, leaf.high)]
+        low, high = (box.decode(c[: box.dimension]).tolist() for c in (leaf.low, leaf.high))
         value = float(promised[leaf.leaf].max())
-        regions.append(Region(leaf.kind, *corners, value))
+        regions.append(Region(leaf.kind, low, high, value))
     return regions
 
 

@@ -112,9 +112,7 @@ def serve(
         access_log=False,
     )
     server = uvicorn.Server(config)
-    thread = threading.Thread(
-        target=server.run, args=([listening],), name="sgim-web", daemon=True
-    )
+    thread = threading.Thread(target=server.run, args=([listening],), name="sgim-web", daemon=True)
     thread.start()
     while thread.is_alive() and not server.started:
         time.sleep(0.01)

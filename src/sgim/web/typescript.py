@@ -1,4 +1,4 @@
-"""Makes ``web/src/protocol.ts`` from `sgim.web.protocol`: ``python -m sgim.web.typescript PATH``."""
+"""Makes the page's types from `sgim.web.protocol`: ``python -m sgim.web.typescript PATH``."""
 
 from __future__ import annotations
 
@@ -22,9 +22,12 @@ def typescript() -> str:
         f"export const VERSION = {protocol.VERSION};",
     ]
     messages = {*get_args(FromPage), *get_args(FromServer)}
-    for value in vars(protocol).values():
-        if isinstance(value, type) and is_dataclass(value) and value is not protocol.Most:
-            parts.append(_interface(value, value in messages))
+    records = [value for value in vars(protocol).values() if isinstance(value, type)]
+    parts += [
+        _interface(record, record in messages)
+        for record in records
+        if is_dataclass(record) and record is not protocol.Most
+    ]
     for union, name in ((FromPage, "FromPage"), (FromServer, "FromServer")):
         members = " | ".join(message.__name__ for message in get_args(union))
         parts.append(f"export type {name} = {members};")

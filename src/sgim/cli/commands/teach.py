@@ -32,7 +32,9 @@ def command(
     per_hour: int = 60,
     journal: Annotated[
         Path | None,
-        arg(metavar="PATH", help_behavior_hint="(default: runs/taught-EXPERIMENT-LEARNER-SEED.sgim)"),
+        arg(
+            metavar="PATH", help_behavior_hint="(default: runs/taught-EXPERIMENT-LEARNER-SEED.sgim)"
+        ),
     ] = None,
     port: Annotated[int | None, arg(metavar="INT", help_behavior_hint="(default: 7446)")] = None,
     expose: Annotated[

@@ -8,7 +8,8 @@ import numpy as np
 
 from sgim.environments.fishing import FishingRod
 from sgim.environments.fishing.leading import HIGH, LOW, LedArm
-from sgim.environments.fishing.movement import FISHING, HOME, JOINTS
+from sgim.environments.fishing.model import JOINTS
+from sgim.environments.fishing.movement import FISHING, HOME
 from sgim.records import Trajectory
 from sgim.spaces import FloatArray
 from sgim.web.scenes.base import Movement, Shape, ball, fixed, thinned, tube
@@ -72,7 +73,7 @@ class FishingScene:
         return self._movement(path, self._rod.follow(trajectory))
 
     def _movement(self, path: FloatArray, outcome: Any) -> Movement:
-        times = np.arange(len(path)) * self._rod.step
+        times: FloatArray = np.arange(len(path), dtype=np.float64) * self._rod.step
         wet = np.flatnonzero(path[:, -1, 2] <= 0.0)
         if len(wet):  # what comes after the landing does not count
             end = min(len(path), int(wet[0]) + round(0.4 / self._rod.step))

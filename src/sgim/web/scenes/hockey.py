@@ -94,7 +94,7 @@ class HockeyScene:
         end = float(shot.times[-1])
         times = np.append(np.arange(0.0, end, 1 / FRAMES_A_SECOND), end)
         frames = np.zeros((len(times), 2, 3))
-        when = np.arange(len(shot.mallet)) * MALLET_STEP
+        when: FloatArray = np.arange(len(shot.mallet), dtype=np.float64) * MALLET_STEP
         frames[:, _MALLET, :2] = between(times, when, shot.mallet)
         frames[:, _PUCK, :2] = between(times, shot.times, shot.puck)
         return Movement(times, frames, outcome)
