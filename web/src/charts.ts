@@ -105,11 +105,13 @@ export class OutcomeMap {
     context.fillStyle = "#fbfcfd";
     context.fillRect(MARGIN.left, MARGIN.top, frame.width, frame.height);
     this.regions(context, run.regions.filter((r) => r.kind === kind.kind), place, flat, end);
-    const size = this.points.length > 1500 ? 2 : 3;
+    const size = this.points.length > 1500 ? 1.4 : this.points.length > 300 ? 2 : 2.8;
     for (const [when, x, y] of this.points) {
       const [px, py] = place([x, y], when);
       context.fillStyle = timeColour(when / end);
-      context.fillRect(px - size / 2, py - size / 2, size, size);
+      context.beginPath();
+      context.arc(px, py, size, 0, 2 * Math.PI);
+      context.fill();
     }
     this.marks(context, run, kind, place, end);
     context.restore();
@@ -132,13 +134,15 @@ export class OutcomeMap {
     flat: boolean,
     end: number,
   ): void {
-    const most = Math.max(...regions.map((r) => r.interest), 1e-12);
+    const values = regions.map((r) => r.interest);
+    const least = Math.min(...values);
+    const range = Math.max(...values) - least;
     context.strokeStyle = "rgba(120,90,30,0.25)";
     context.lineWidth = 1;
     for (const region of regions) {
       const [x0, y0] = place(region.low, 0);
       const [x1, y1] = place(region.high, flat ? end : 0);
-      context.fillStyle = interestColour(Math.sqrt(Math.max(region.interest, 0) / most));
+      context.fillStyle = interestColour(range > 0 ? Math.sqrt((region.interest - least) / range) : 0.3);
       context.fillRect(x0, y1, x1 - x0, y0 - y1);
       context.strokeRect(x0, y1, x1 - x0, y0 - y1);
     }
@@ -260,13 +264,13 @@ export class Strip {
     const end = run.strip[run.strip.length - 1][0] || 1;
     let left = 0;
     for (const [upto, ...counts] of run.strip) {
-      const right = (upto / end) * width;
+      const right = Math.round((upto / end) * width);
       const total = counts.reduce((sum, count) => sum + count, 0) || 1;
       let y = height;
       counts.forEach((count, mode) => {
         const part = (count / total) * height;
         context.fillStyle = colours[mode];
-        context.fillRect(left, y - part, Math.max(right - left + 0.3, 0.5), part);
+        context.fillRect(left, y - part, right - left, part);
         y -= part;
       });
       left = right;

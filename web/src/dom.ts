@@ -36,6 +36,7 @@ export function short(value: number): string {
 
 /** A share as a percentage. */
 export function percent(share: number): string {
+  if (share > 0 && share < 0.0005) return "less than 0.1 %";
   return `${short(100 * share)} %`;
 }
 

@@ -34,6 +34,8 @@ export class Hand {
   private chosen = 0;
   private moved = -Infinity;
   private before = 0;
+  private origin: [number, number] = [0, 0]; // of the world's time, and of ours
+  private tempo = 1;
   private looping = false;
 
   /**
@@ -50,6 +52,18 @@ export class Hand {
     private readonly posed: (pose: Pose) => void,
   ) {
     this.joints = welcome.joints.map((joint) => joint.home);
+  }
+
+  /** The world's time at one of ours, in s: it passes as fast as was chosen. */
+  time(now = performance.now() / 1000): number {
+    return this.origin[0] + (now - this.origin[1]) * this.tempo;
+  }
+
+  /** Let the world's time pass so many times as fast as ours, from now on. */
+  pass(tempo: number): void {
+    const now = performance.now() / 1000;
+    this.origin = [this.time(now), now];
+    this.tempo = tempo;
   }
 
   get settled(): boolean {
@@ -81,7 +95,7 @@ export class Hand {
       const under = this.stage.under(one.clientX, one.clientY, this.plane(), this.through);
       if (!under) continue;
       this.target = [0, 1, 2].map((i) => under[i] + this.offset[i]) as Place;
-      this.add({ by: "tip", row: [one.timeStamp / 1000, ...this.target] });
+      this.add({ by: "tip", row: [this.time(one.timeStamp / 1000), ...this.target] });
     }
   }
 
@@ -115,7 +129,7 @@ export class Hand {
     const joints = [...this.joints];
     joints[joint] = value;
     this.joints = joints;
-    this.add({ by: "joints", row: [performance.now() / 1000, ...joints] });
+    this.add({ by: "joints", row: [this.time(), ...joints] });
   }
 
   // Sending.
@@ -175,7 +189,7 @@ export class Hand {
     if (this.held.size) this.byKeys(now, passed);
     // With nobody moving, time passes all the same: the line swings, the puck flies.
     if (!this.queue.length && this.last && !this.unanswered.length)
-      this.queue.push({ by: this.last.by, row: [now, ...this.last.row.slice(1)] });
+      this.queue.push({ by: this.last.by, row: [this.time(now), ...this.last.row.slice(1)] });
     while (this.queue.length && this.unanswered.length < IN_FLIGHT) {
       const by = this.queue[0].by;
       let count = this.queue.findIndex((sample) => sample.by !== by);
@@ -207,6 +221,6 @@ export class Hand {
     const by = this.stage.step(right, up, this.plane());
     const speed = KEY_SPEED * (this.stage.flat ? 2 : 1) * passed;
     this.target = [0, 1, 2].map((i) => this.target![i] + speed * by[i]) as Place;
-    this.add({ by: "tip", row: [now, ...this.target] });
+    this.add({ by: "tip", row: [this.time(now), ...this.target] });
   }
 }

@@ -122,8 +122,8 @@ export class Requests {
       ...fact("misses it now by", asked.error === null ? "never tried" : percent(asked.error)),
       ...(asked.gain !== null
         ? fact(
-            "expects",
-            `${percent(asked.gain)} a movement from you` +
+            "expected gain",
+            `${percent(asked.gain)} a movement with you` +
               (asked.alone === null ? "" : `, ${percent(asked.alone)} alone`),
           )
         : []),

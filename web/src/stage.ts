@@ -21,6 +21,7 @@ export interface SceneFacts {
     | { kind: "flat"; centre: [number, number]; size: [number, number] };
   points: string[];
   handle: number;
+  tempo: number;
   planes: string[];
   still: Shape[];
   moving: Shape[];

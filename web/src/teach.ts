@@ -8,7 +8,7 @@ import { Library } from "./library";
 import { Movement, Player } from "./player";
 import { Asked, Assessed, FromPage, FromServer, Pose, Welcome } from "./protocol";
 import { Requests } from "./requests";
-import { Stage } from "./stage";
+import { SceneFacts, Stage } from "./stage";
 import { drawCurves } from "./charts";
 import { Take, assess, duration, tidied } from "./take";
 
@@ -48,6 +48,9 @@ export class Teaching {
     this.requests = new Requests(send, this.letters, atWork, (asked) => this.asked(asked));
     this.library = new Library(send, (take) => this.adopt(take), (undo) => this.undoable(undo));
     this.bind();
+    const scene = welcome.scene as unknown as SceneFacts | null;
+    byId<HTMLSelectElement>("tempo").value = String(scene?.tempo ?? 1);
+    this.hand.pass(scene?.tempo ?? 1);
     this.joints();
     const draft = kept<Take | null>("draft", null);
     if (draft) {
@@ -126,7 +129,7 @@ export class Teaching {
 
   private start(): void {
     this.state = "recording";
-    this.began = performance.now() / 1000;
+    this.began = this.hand.time();
     this.hand.begin(this.welcome.joints.map((joint) => joint.home));
     this.timer = window.setInterval(() => this.watchRecording(), 200);
     announce("Recording: lead the arm, then stop.");
@@ -134,10 +137,10 @@ export class Teaching {
   }
 
   private watchRecording(): void {
-    const now = performance.now() / 1000;
+    const now = this.hand.time();
     byId("badge").textContent = `● ${(now - this.began).toFixed(1)} s`;
-    if (now - this.saved > 0.5) {
-      this.saved = now;
+    if (performance.now() - this.saved > 500) {
+      this.saved = performance.now();
       keep("draft", this.made());
     }
     if (this.state === "recording" && now - this.began > LONGEST_RECORDING) this.stop();
@@ -316,6 +319,8 @@ export class Teaching {
   }
 
   private bind(): void {
+    const tempo = byId<HTMLSelectElement>("tempo");
+    tempo.onchange = () => this.hand.pass(Number(tempo.value));
     byId("record").onclick = () => this.record();
     byId("home").onclick = () => this.home();
     byId("undo").onclick = () => this.undo();

@@ -43,7 +43,6 @@ from sgim.web.protocol import (
 from sgim.web.scenes import Scene, scene_of
 from sgim.web.watching import Watched
 
-
 T = TypeVar("T")
 
 

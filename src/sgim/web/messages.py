@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import types
 from dataclasses import fields
-from functools import cache
 from typing import Annotated, Any, Literal, NoReturn, Union, get_args, get_origin, get_type_hints
 
 from sgim.errors import SgimError
@@ -37,11 +36,15 @@ def parse(text: str | bytes) -> FromPage:
         value = json.loads(text, parse_constant=_refuse)
     except (ValueError, RecursionError) as error:
         raise MessageError(f"a message is not JSON: {error!s:.100}") from None
-    if not isinstance(value, dict) or value.get("what") not in _names():
+    if not isinstance(value, dict) or not _is_known(value.get("what")):
         raise MessageError("a message has no known 'what'")
     known = _KNOWN[value.pop("what")]
     message: FromPage = _record(value, known, name_of(known))
     return message
+
+
+def _is_known(what: Any) -> bool:
+    return isinstance(what, str) and what in _KNOWN
 
 
 def text_of(message: FromServer) -> str:
@@ -52,20 +55,15 @@ def text_of(message: FromServer) -> str:
     )
 
 
-@cache
-def _names() -> frozenset[str]:
-    return frozenset(_KNOWN)
+_HINTS: dict[type[Any], dict[str, Any]] = {}
 
 
 def hints(message: type[Any]) -> dict[str, Any]:
     """Field → type with limits, of a class of this protocol."""
-    return _hints(message)
-
-
-@cache
-def _hints(message: Any) -> dict[str, Any]:
-    found = get_type_hints(message, vars(protocol), include_extras=True)
-    return {f.name: found[f.name] for f in fields(message)}
+    if message not in _HINTS:
+        found = get_type_hints(message, vars(protocol), include_extras=True)
+        _HINTS[message] = {f.name: found[f.name] for f in fields(message)}
+    return _HINTS[message]
 
 
 def _record(value: Any, expected: type[Any], where: str) -> Any:

@@ -22,7 +22,7 @@ class FishingScene:
         self._rod = FishingRod(0.0)
         self._arm = LedArm()
         self.task = self._rod.task
-        self.joints = JOINTS
+        self.joints: tuple[str, ...] = JOINTS
         self.unit = "rad"
         self.low, self.high, self.home = LOW, HIGH, HOME
         self.shortest, self.longest = FISHING.shortest, FISHING.longest
@@ -41,6 +41,7 @@ class FishingScene:
             },
             "points": list(names),
             "handle": line[0],
+            "tempo": 0.5,
             "planes": ["camera", "level", "upright"],
             "still": [
                 fixed("sheet", [[-1.1, -1.1, 0], [1.1, 1.1, 0]], "water"),

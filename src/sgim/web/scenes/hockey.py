@@ -34,7 +34,7 @@ class HockeyScene:
     def __init__(self) -> None:
         self._table = AirHockey()
         self.task = self._table.task
-        self.joints = ("x", "y")
+        self.joints: tuple[str, ...] = ("x", "y")
         self.unit = "m"
         self.low, self.high = np.full(2, -1.0), np.full(2, 1.0)
         self.home: FloatArray = np.array([0.05, -0.75])
@@ -64,6 +64,7 @@ class HockeyScene:
             "view": {"kind": "flat", "centre": [0.0, 0.0], "size": [2.3, 2.3]},
             "points": ["mallet", "puck"],
             "handle": _MALLET,
+            "tempo": 0.5,
             "planes": ["level"],
             "still": still,
             "moving": [

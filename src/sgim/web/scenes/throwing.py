@@ -39,6 +39,7 @@ class ThrowingScene:
             "view": {"kind": "flat", "centre": [1.5, 2.6], "size": [18.5, 7.2]},
             "points": ["shoulder", "hand", "ball"],
             "handle": _HAND,
+            "tempo": 1.0,
             "planes": ["level"],
             "still": [
                 fixed("line", [[-10.5, 0, 0], [WALL, 0, 0]], "dark", 0.05),
