@@ -239,7 +239,10 @@ canvas.addEventListener("pointermove", (event) => {
 });
 for (const name of ["pointerup", "pointercancel"])
   canvas.addEventListener(name, () => {
-    teaching?.hand.release();
+    if (teaching?.hand.dragging) {
+      teaching.hand.release();
+      teaching.released();
+    }
     orbiting = null;
   });
 canvas.addEventListener(

@@ -22,6 +22,8 @@ export interface SceneFacts {
   points: string[];
   handle: number;
   tempo: number;
+  near?: { centre: [number, number]; size: [number, number] };
+  ends?: string;
   planes: string[];
   still: Shape[];
   moving: Shape[];
@@ -96,6 +98,7 @@ export class Stage {
   private ghost: Figure | null = null;
   private points: number[][] = [];
   private dirty = false;
+  private near = false;
   private orbit = { turn: 0, tilt: 0.5, far: 2, target: new three.Vector3() };
   private readonly water: three.Mesh[] = [];
 
@@ -125,13 +128,21 @@ export class Stage {
     this.resize();
   }
 
+  /** In a flat scene that is wide, look at the part where one moves. */
+  zoom(near: boolean): void {
+    if (!this.facts?.near || this.near === near) return;
+    this.near = near;
+    this.lookAgain();
+  }
+
   /** Look from where one looks at first. */
   lookAgain(): void {
     const view = this.facts?.view;
     if (!view) return;
     if (view.kind === "flat") {
+      const centre = this.near ? this.facts!.near!.centre : view.centre;
       this.camera = new three.OrthographicCamera();
-      this.camera.position.set(view.centre[0], view.centre[1], 10);
+      this.camera.position.set(centre[0], centre[1], 10);
     } else {
       this.camera = new three.PerspectiveCamera(38, 1, 0.01, 50);
       this.camera.up.set(0, 0, 1);
@@ -312,7 +323,8 @@ export class Stage {
       // On a narrow screen the scene's width decides, not its height.
       this.camera.fov = width >= height ? 38 : Math.min(70, (38 * height) / width);
     } else if (view?.kind === "flat") {
-      const scale = Math.max(view.size[0] / width, view.size[1] / height);
+      const size = this.near ? this.facts!.near!.size : view.size;
+      const scale = Math.max(size[0] / width, size[1] / height);
       Object.assign(this.camera, {
         left: (-scale * width) / 2,
         right: (scale * width) / 2,

@@ -163,6 +163,12 @@ export class Teaching {
     this.draw();
   }
 
+  /** The pointer was lifted: in some worlds that ends the movement. */
+  released(): void {
+    const scene = this.welcome.scene as unknown as SceneFacts | null;
+    if (scene?.ends === "release" && this.state === "recording") this.stop();
+  }
+
   private made(): Take {
     const from = this.began;
     const { led, raw } = this.hand;
@@ -363,6 +369,7 @@ export class Teaching {
   private draw(): void {
     const { state, take, worth } = this;
     document.body.dataset.state = state;
+    this.stage.zoom(this.busy || state === "countdown");
     const recording = state === "recording" || state === "countdown";
     byId("record").textContent = recording ? "■ Stop" : take ? "● Record again" : "● Record";
     byId("badge").hidden = !this.busy;
@@ -398,6 +405,9 @@ export class Teaching {
   private hint(): string {
     if (!this.connected) return "No connection; what you draw is kept.";
     if (this.state === "countdown") return "Recording begins in a moment.";
+    const release = (this.welcome.scene as unknown as SceneFacts | null)?.ends === "release";
+    if (this.state === "recording" && release)
+      return "Swing the arm and let go to throw; hold it still first to place the ball.";
     if (this.state === "recording") return "Lead the arm, then stop with space.";
     if (this.state === "assessed" && this.worth && !this.worth.problem)
       return "A miss is worth keeping too: the learner sees what it led to.";

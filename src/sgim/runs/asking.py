@@ -56,6 +56,7 @@ class Asking:
         journal: The run's journal, open for writing.
         teachers: Name → settings, of the persons among the run's teachers.
         clock: Seconds since 1970.
+        listening: Least time in s between two looks at the letters.
     """
 
     def __init__(
@@ -64,17 +65,21 @@ class Asking:
         journal: Journal,
         teachers: Mapping[str, RemoteTeacher],
         clock: Callable[[], float] = time.time,
+        listening: float = LISTENING,
     ) -> None:
         self._learner = learner
         self._journal = journal
         self._clock = clock
+        self._listening = listening
         self._looked = 0.0
+        self._unseen = False
+        self._said: dict[str, str] = {}
         self._desks = {name: _Desk(teacher) for name, teacher in teachers.items()}
         if not self._desks:
             return
         for statement in SCHEMA:
             journal.query(statement)
-        journal.beside("UPDATE requests SET until = 0")
+        self._write("UPDATE requests SET until = 0")
         self._restore()
         for plan in learner.pending:
             if self.waits(plan):
@@ -100,7 +105,7 @@ class Asking:
         if not already:
             desk.asked.append(now)
         desk.until[plan.id] = now + desk.teacher.time_limit
-        self._journal.beside(
+        self._write(
             "INSERT OR REPLACE INTO requests VALUES (?, ?, ?, ?, ?)",
             *(plan.id, teacher, asked, desk.until[plan.id]),
             to_json(reasons(self._learner, plan)),
@@ -110,7 +115,7 @@ class Asking:
 
     def hear(self) -> None:
         """Take up the letters that have come; let requests expire that nobody answers."""
-        if not self._desks or time.monotonic() - self._looked < LISTENING:
+        if not self._desks or time.monotonic() - self._looked < self._listening:
             return
         self._looked = time.monotonic()
         rows = self._journal.query(select_letters("number NOT IN (SELECT letter FROM taken)"))
@@ -124,11 +129,19 @@ class Asking:
                     self._settle(number)
                     self._learner.expire(self._plan(number), f"{reason} in time")
         self._say_who_is_there()
+        if self._unseen:
+            self._journal.commit()
+            self._unseen = False
+
+    def _write(self, statement: str, *values: Any) -> None:
+        """Have a statement executed with the next commit, before the page is to see it."""
+        self._journal.beside(statement, *values)
+        self._unseen = True
 
     def _take(self, letter: Letter) -> None:
         """Take up a letter; what comes of it is committed together with the note of it."""
         note = "INSERT OR REPLACE INTO taken VALUES (?, ?)"
-        self._journal.beside(note, letter.number, "")
+        self._write(note, letter.number, "")
         try:
             said = self._act_on(letter)
         except JournalError:
@@ -136,7 +149,7 @@ class Asking:
         except (SgimError, KeyError, TypeError, ValueError) as error:
             said = f"{error}"
         if said:
-            self._journal.beside(note, letter.number, said)
+            self._write(note, letter.number, said)
         self._journal.commit(synced=True)
 
     def _act_on(self, letter: Letter) -> str:
@@ -170,7 +183,7 @@ class Asking:
             case "extend":
                 assert letter.plan is not None
                 desk.until[letter.plan] = self._clock() + float(letter.detail["seconds"])
-                self._journal.beside(
+                self._write(
                     "UPDATE requests SET until = ? WHERE plan = ?",
                     *(desk.until[letter.plan], letter.plan),
                 )
@@ -188,7 +201,7 @@ class Asking:
     def _settle(self, number: int) -> None:
         for desk in self._desks.values():
             desk.until.pop(number, None)
-        self._journal.beside("UPDATE requests SET until = 0 WHERE plan = ?", number)
+        self._write("UPDATE requests SET until = 0 WHERE plan = ?", number)
 
     def _arrange(self, desk: _Desk, detail: Mapping[str, Any]) -> None:
         if detail["status"] not in ("now", "busy", "away"):
@@ -217,11 +230,10 @@ class Asking:
             text = to_json(said)
             if self._said.get(name) != text:
                 self._said[name] = text
-                self._journal.beside("INSERT OR REPLACE INTO persons VALUES (?, ?)", name, text)
+                self._write("INSERT OR REPLACE INTO persons VALUES (?, ?)", name, text)
 
     def _restore(self) -> None:
         """Go on as it was arranged before a resume."""
-        self._said: dict[str, str] = {}
         arranged = self._journal.query(
             select_letters("what = 'available' AND number IN (SELECT letter FROM taken)")
         )

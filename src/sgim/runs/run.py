@@ -238,9 +238,11 @@ class Run:
                 plan = self._answered(plan)
             self._tell(plan, world.execute(plan), observer)
             return
-        asked = learner.ask_batch(n, world.contexts(first, n)) if n > 0 else []
-        for plan in asked:
-            self._put(plan)
+        if self._asking is not None:  # one by one: who is asked is not asked again
+            for context in world.contexts(first, max(n, 0)):
+                self._put(learner.ask(context))
+        elif n > 0:
+            learner.ask_batch(n, world.contexts(first, n))
         for plan in self._due():
             if plan.request is not None:
                 self._answered(plan)

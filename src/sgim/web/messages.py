@@ -8,7 +8,6 @@ from dataclasses import fields
 from typing import Annotated, Any, Literal, NoReturn, Union, get_args, get_origin, get_type_hints
 
 from sgim.errors import SgimError
-from sgim.web import protocol
 from sgim.web.protocol import FromPage, FromServer, Most
 
 _PLAIN = Most(1000)
@@ -61,7 +60,7 @@ _HINTS: dict[type[Any], dict[str, Any]] = {}
 def hints(message: type[Any]) -> dict[str, Any]:
     """Field → type with limits, of a class of this protocol."""
     if message not in _HINTS:
-        found = get_type_hints(message, vars(protocol), include_extras=True)
+        found = get_type_hints(message, include_extras=True)
         _HINTS[message] = {f.name: found[f.name] for f in fields(message)}
     return _HINTS[message]
 

@@ -95,9 +95,8 @@ class Takes:
         return Trajectory(even, np.stack(columns, axis=1), scene.joints, scene.unit)
 
     def _assessed(self, asked: Assess, trajectory: Trajectory) -> Assessed:
-        scene, primitive = self._scene, self._scene.task.primitive
-        assert primitive is not None
-        policy, residual = primitive.fit(trajectory)
+        scene = self._scene
+        policy, residual = scene.fit(trajectory)
         shown, fitted = scene.led(trajectory, policy), scene.movement(policy)
         outcome = {kind: np.asarray(point) for kind, point in shown.outcome.items()}
         problem = ""

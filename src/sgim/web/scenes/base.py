@@ -81,6 +81,10 @@ class Scene(Protocol):
         """What a policy does."""
         ...
 
+    def fit(self, trajectory: Trajectory) -> tuple[Any, float]:
+        """The policy that comes nearest to a person's movement, and by how much it differs."""
+        ...
+
     def led(self, trajectory: Trajectory, policy: Any) -> Movement:
         """What a person's movement does; ``policy`` is the nearest that the learner can do."""
         ...

@@ -9,7 +9,7 @@ import numpy as np
 from sgim.environments.fishing import FishingRod
 from sgim.environments.fishing.leading import HIGH, LOW, LedArm
 from sgim.environments.fishing.model import JOINTS
-from sgim.environments.fishing.movement import FISHING, HOME
+from sgim.environments.fishing.movement import FISHING, HOME, PRIMITIVE
 from sgim.records import Trajectory
 from sgim.spaces import FloatArray
 from sgim.web.scenes.base import Movement, Shape, ball, fixed, thinned, tube
@@ -22,6 +22,7 @@ class FishingScene:
         self._rod = FishingRod(0.0)
         self._arm = LedArm()
         self.task = self._rod.task
+        self._primitive = PRIMITIVE
         self.joints: tuple[str, ...] = JOINTS
         self.unit = "rad"
         self.low, self.high, self.home = LOW, HIGH, HOME
@@ -67,6 +68,10 @@ class FishingScene:
         """What a policy does; see `Scene`."""
         _, path = self._rod.positions(policy)
         return self._movement(path, self._rod.execute(policy))
+
+    def fit(self, trajectory: Trajectory) -> tuple[Any, float]:
+        """The task's correspondence (eq. 3.7); see `Scene`."""
+        return self._primitive.fit(trajectory)
 
     def led(self, trajectory: Trajectory, policy: Any) -> Movement:
         """What a person's movement does; see `Scene`."""

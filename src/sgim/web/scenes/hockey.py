@@ -86,6 +86,11 @@ class HockeyScene:
         (shot,) = self._table.shots([policy])
         return self._movement(shot, self._table.execute(policy))
 
+    def fit(self, trajectory: Trajectory) -> tuple[Any, float]:
+        """The task's correspondence (eq. 3.7); see `Scene`."""
+        assert self.task.primitive is not None
+        return self.task.primitive.fit(trajectory)
+
     def led(self, trajectory: Trajectory, policy: Any) -> Movement:
         """What a person's movement does; see `Scene`."""
         outcome, shot = self._table.follow(trajectory)

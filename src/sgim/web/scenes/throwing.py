@@ -10,11 +10,13 @@ import numpy as np
 from sgim.environments.throwing import GRAVITY, SHOULDER_HEIGHT, WALL, ThrowingArm, swing
 from sgim.primitives import PiecewiseAcceleration
 from sgim.records import Outcome, Trajectory
-from sgim.spaces import FloatArray
+from sgim.spaces import Box, FloatArray, Space
 from sgim.web.scenes.base import FRAMES_A_SECOND, Movement, Shape, ball, fixed, tube
 
 _SHOULDER, _HAND, _BALL = 0, 1, 2
 _ARM = 1.0
+_STILL_TIME = 0.06
+_STILL = 0.01
 
 
 class ThrowingScene:
@@ -40,6 +42,8 @@ class ThrowingScene:
             "points": ["shoulder", "hand", "ball"],
             "handle": _HAND,
             "tempo": 1.0,
+            "near": {"centre": [0.0, 1.0], "size": [3.4, 2.6]},
+            "ends": "release",
             "planes": ["level"],
             "still": [
                 fixed("line", [[-10.5, 0, 0], [WALL, 0, 0]], "dark", 0.05),
@@ -67,6 +71,19 @@ class ThrowingScene:
             fixed("line", [[x - 0.8, height, 0], [x + 0.8, height, 0]], "goal", 0.035),
             fixed("line", [[x, 0, 0], [x, height, 0]], "goal", 0.012),
         ]
+
+    def fit(self, trajectory: Trajectory) -> tuple[FloatArray, float]:
+        """The nearest policy; one that ends at rest if the arm was held still at the end.
+
+        The world takes a ball to be placed only if the arm stops within 0.01 rad/s, which no
+        hand and no least squares meet by themselves.
+        """
+        policy, residual = self._primitive.fit(trajectory)
+        angles = trajectory.positions[:, 0]
+        lately = trajectory.times >= trajectory.times[-1] - _STILL_TIME
+        if float(np.ptp(angles[lately])) < _STILL:
+            policy = _at_rest(policy, self.task.policy_space)
+        return policy, residual
 
     def movement(self, policy: Any) -> Movement:
         """What a policy does; see `Scene`."""
@@ -113,6 +130,18 @@ class ThrowingScene:
 def _places(angle: float) -> list[list[float]]:
     hand = [_ARM * math.cos(angle), SHOULDER_HEIGHT + _ARM * math.sin(angle), 0.0]
     return [[0.0, SHOULDER_HEIGHT, 0.0], hand, hand]
+
+
+def _at_rest(policy: FloatArray, space: Space) -> FloatArray:
+    """The policy, its accelerations changed as little as it takes to end at rest."""
+    assert isinstance(space, Box)
+    rest = policy.copy()
+    for _ in range(5):  # again where a bound was met
+        durations = rest[1::2]
+        speed = float(rest[::2] @ durations)
+        rest[::2] -= durations * (speed / max(float(durations @ durations), 1e-12))
+        rest = space.clip(rest)
+    return rest
 
 
 def _flight(policy: Any) -> FloatArray:
