@@ -61,6 +61,11 @@ class Site:
     def headers(self) -> dict[str, str]:
         return {"Cookie": "; ".join(f"{k}={v}" for k, v in self.cookies().items())}
 
+    def cut(self) -> None:
+        """Break all connections, as a bad network does."""
+        for connection in list(self.served._server.server_state.connections):
+            connection.loop.call_soon_threadsafe(connection.transport.abort)
+
     @asynccontextmanager
     async def page(self, name: str, person: str = "Ada") -> AsyncIterator[Client]:
         """A page that has said hello."""

@@ -30,7 +30,8 @@ export class Hand {
   private target: Place | null = null;
   private through: Place | null = null;
   private offset: Place = [0, 0, 0];
-  private held = new Set<string>();
+  private held: Place | null = null; // where the handle was led to
+  private pressed = new Set<string>();
   private chosen = 0;
   private moved = -Infinity;
   private before = 0;
@@ -78,10 +79,12 @@ export class Hand {
     if (!handle) return false;
     this.through = handle;
     const under = this.stage.under(event.clientX, event.clientY, this.plane(), handle);
-    // A tip that is grasped beside its middle does not jump; a mallet comes to the pointer.
+    // A tip that is grasped beside its middle does not jump, nor one that hangs below where it
+    // was led to; a mallet comes to the pointer.
+    const held = this.held;
     this.offset =
-      under && !this.stage.flat
-        ? [handle[0] - under[0], handle[1] - under[1], handle[2] - under[2]]
+      under && held && !this.stage.flat
+        ? [held[0] - under[0], held[1] - under[1], held[2] - under[2]]
         : [0, 0, 0];
     this.dragging = true;
     this.drag(event);
@@ -111,14 +114,14 @@ export class Hand {
       return true;
     }
     if (!["w", "a", "s", "d", "arrowup", "arrowdown"].includes(key)) return false;
-    this.held.add(key);
+    this.pressed.add(key);
     this.wake();
     return true;
   }
 
   lift(key: string): void {
-    this.held.delete(key);
-    if (!this.held.size) this.target = null;
+    this.pressed.delete(key);
+    if (!this.pressed.size) this.target = null;
   }
 
   get joint(): number {
@@ -157,6 +160,7 @@ export class Hand {
     if (pose.number >= 0 && pose.number < this.first) return; // from before it began anew
     this.unanswered = this.unanswered.filter((lead) => lead.number > pose.number);
     this.led.push(...pose.joints);
+    this.held = pose.held as Place;
     const latest = pose.joints[pose.joints.length - 1];
     if (latest) this.joints = latest.slice(1);
     this.posed(pose);
@@ -170,7 +174,7 @@ export class Hand {
     const step = () => {
       this.step();
       const idle = performance.now() / 1000 - this.moved > SETTLING && this.settled;
-      if (idle && !this.busy() && !this.dragging && !this.held.size) this.looping = false;
+      if (idle && !this.busy() && !this.dragging && !this.pressed.size) this.looping = false;
       else requestAnimationFrame(step);
     };
     requestAnimationFrame(step);
@@ -186,9 +190,10 @@ export class Hand {
     const now = performance.now() / 1000;
     const passed = Math.min(now - this.before, 0.1);
     this.before = now;
-    if (this.held.size) this.byKeys(now, passed);
-    // With nobody moving, time passes all the same: the line swings, the puck flies.
-    if (!this.queue.length && this.last && !this.unanswered.length)
+    if (this.pressed.size) this.byKeys(now, passed);
+    // With nobody moving, time passes for a while all the same: the line swings, the puck flies.
+    const goesOn = this.busy() || this.dragging || now - this.moved < SETTLING;
+    if (goesOn && !this.queue.length && this.last && !this.unanswered.length)
       this.queue.push({ by: this.last.by, row: [this.time(now), ...this.last.row.slice(1)] });
     while (this.queue.length && this.unanswered.length < IN_FLIGHT) {
       const by = this.queue[0].by;
@@ -205,7 +210,7 @@ export class Hand {
   }
 
   private byKeys(now: number, passed: number): void {
-    const one = (key: string) => (this.held.has(key) ? 1 : 0);
+    const one = (key: string) => (this.pressed.has(key) ? 1 : 0);
     const turned = one("arrowup") - one("arrowdown");
     if (turned) {
       const joint = this.welcome.joints[this.chosen];
@@ -216,7 +221,7 @@ export class Hand {
     const right = one("d") - one("a");
     const up = one("w") - one("s");
     if (!right && !up) return;
-    this.target ??= this.stage.handle;
+    this.target ??= this.held;
     if (!this.target) return;
     const by = this.stage.step(right, up, this.plane());
     const speed = KEY_SPEED * (this.stage.flat ? 2 : 1) * passed;

@@ -78,6 +78,7 @@ export interface Pose {
   number: number;
   joints: number[][];
   points: number[][];
+  held: number[];
   stuck: number[];
 }
 

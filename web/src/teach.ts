@@ -376,6 +376,7 @@ export class Teaching {
     byId("assessed").hidden = !take || this.busy || state === "countdown";
     byId<HTMLButtonElement>("undo").disabled = !this.undos.length;
     byId<HTMLButtonElement>("accept").disabled = state !== "assessed" || !!worth?.problem;
+    byId<HTMLButtonElement>("keep").disabled = state !== "assessed" || !!worth?.problem;
     byId("accept").textContent = this.requests?.asked ? "Accept →" : "Give it unasked →";
     byId("hint").textContent = this.hint();
     if (!take || byId("assessed").hidden) return;

@@ -106,7 +106,8 @@ class Lesson:
     def _pose(self, number: int, rows: list[list[float]]) -> Pose:
         scene, at = self._scene(), self._joints
         stuck = np.flatnonzero((at <= scene.low + 1e-6) | (at >= scene.high - 1e-6)).tolist()
-        return Pose(number, rows, np.round(scene.points(), 5).tolist(), stuck)
+        points, held = np.round(scene.points(), 5), np.round(scene.held(at), 5)
+        return Pose(number, rows, points.tolist(), held.tolist(), stuck)
 
     def _scene(self) -> Scene:
         if self.scene is None:

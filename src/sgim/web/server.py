@@ -32,10 +32,14 @@ class Served:
 
     Attributes:
         url: Where a browser finds it. Who knows it can watch, and take control.
+        journals: What it shows.
     """
 
-    def __init__(self, server: Any, thread: threading.Thread, url: str) -> None:
+    def __init__(
+        self, server: Any, thread: threading.Thread, url: str, journals: list[Path]
+    ) -> None:
         self.url = url
+        self.journals = journals
         self._server = server
         self._thread = thread
 
@@ -117,7 +121,8 @@ def serve(
     while thread.is_alive() and not server.started:
         time.sleep(0.01)
     host = f"[{address}]" if ":" in address else address
-    return Served(server, thread, f"http://{host}:{number}/?token={guard.token}")
+    url = f"http://{host}:{number}/?token={guard.token}"
+    return Served(server, thread, url, [one.path for one in watched])
 
 
 def _imported() -> tuple[Any, Any]:

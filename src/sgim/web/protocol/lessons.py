@@ -116,12 +116,14 @@ class Pose:
         number: Of the message answered.
         joints: For each sample, the time in s, then the positions of the joints.
         points: Where the scene's points are now.
+        held: Where the handle was last led to, which it may not have reached yet.
         stuck: Joints that are at a limit.
     """
 
     number: int
     joints: list[list[float]]
     points: list[list[float]]
+    held: list[float]
     stuck: list[int]
 
 

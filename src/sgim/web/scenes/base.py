@@ -93,6 +93,13 @@ class Scene(Protocol):
         """Begin anew with the joints at these positions, and at home what can only be there."""
         ...
 
+    def held(self, joints: FloatArray) -> FloatArray:
+        """Where joints that are at these positions are to bring the handle, shape ``(3,)``.
+
+        The handle itself lags behind, or hangs below: who grasps it leads on from here.
+        """
+        ...
+
     def reach(self, target: FloatArray, joints: FloatArray) -> FloatArray:
         """Positions of the joints, near given ones, that bring the handle near a place."""
         ...

@@ -92,6 +92,10 @@ class FishingScene:
         if not np.allclose(joints, HOME):
             self._arm.advance(joints, 0.5)
 
+    def held(self, joints: FloatArray) -> FloatArray:
+        """The tip of a rod that does not bend; see `Scene`."""
+        return self._arm.tip(joints)
+
     def reach(self, target: FloatArray, joints: FloatArray) -> FloatArray:
         """Inverse kinematics of the rod's tip; see `Scene`."""
         return self._arm.reach(target, joints)

@@ -110,6 +110,10 @@ class HockeyScene:
         self._times = [0.0]
         self._path: list[FloatArray] = [np.array(joints, dtype=np.float64)]
 
+    def held(self, joints: FloatArray) -> FloatArray:
+        """The mallet; see `Scene`."""
+        return np.append(joints, 0.0)
+
     def reach(self, target: FloatArray, joints: FloatArray) -> FloatArray:
         """The mallet goes where the pointer is; see `Scene`."""
         return np.clip(target[:2], self.low, self.high)

@@ -111,6 +111,10 @@ class ThrowingScene:
         """The ball in the hand; see `Scene`."""
         self._angle = float(joints[0])
 
+    def held(self, joints: FloatArray) -> FloatArray:
+        """The hand; see `Scene`."""
+        return np.array(_places(float(joints[0]))[_HAND])
+
     def reach(self, target: FloatArray, joints: FloatArray) -> FloatArray:
         """The angle towards the pointer, turned no further than needed; see `Scene`."""
         wanted = math.atan2(float(target[1]) - SHOULDER_HEIGHT, float(target[0]))
