@@ -87,7 +87,7 @@ def report(what: str, waits: list[float]) -> None:
 
 
 def time_drags(folder: Path) -> None:
-    """Drags of the rod's tip: with a run that stands, at the pace of a lesson, and at full speed."""
+    """Drags of the tip: with a run that stands, at the pace of a lesson, and at full speed."""
     for what, pace in (
         ("the run stands", None),
         ("the run goes on, 2 movements a second", 2.0),

@@ -7,8 +7,10 @@ from dataclasses import dataclass
 from typing import Any, Literal
 
 from sgim.claims.components import Component, Finding
-from sgim.claims.world import World
+from sgim.claims.measures import learners_of
+from sgim.claims.world import ReadRun, World
 from sgim.runs.contrasts import LEVEL
+from sgim.runs.summary import read_run
 from sgim.statistics import holm, least_pairs
 from sgim.streams import Streams
 
@@ -49,12 +51,14 @@ class Chapter:
         title: What it is about, and where the thesis has it.
         experiment: Name of the experiment; its variants count as plausible worlds.
         claims: The claims.
+        read_chooser: How a run is read whose choices the claims are about.
     """
 
     name: str
     title: str
     experiment: str
     claims: tuple[Claim, ...]
+    read_chooser: ReadRun = read_run
 
     @property
     def learners(self) -> list[str]:
@@ -66,7 +70,8 @@ class Chapter:
         """Whose choices its claims are about."""
         components = (part for claim in self.claims for part in claim.components)
         measures = (m for part in components for m in (part.one, part.other))
-        return {m.learner for m in measures if not isinstance(m, float) and m.of_choices}
+        chosen = [m for m in measures if not isinstance(m, float) and m.of_choices]
+        return {learner for measure in chosen for learner in learners_of(measure)}
 
 
 @dataclass(frozen=True)

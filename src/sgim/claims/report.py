@@ -10,9 +10,15 @@ from typing import Any
 
 from sgim.claims.claim import Chapter, Verdicts, decide
 from sgim.claims.plausible import Plausible, count_worlds
-from sgim.claims.world import base_of, read_runs, worlds_of
+from sgim.claims.world import (
+    Chooser,
+    ReadRun,
+    base_of,
+    main_experiment,
+    read_runs,
+    worlds_of,
+)
 from sgim.errors import SgimError, unknown
-from sgim.experiments import EXPERIMENTS
 from sgim.runs.measured import MeasuredRun
 
 
@@ -68,11 +74,15 @@ def report(
     """
     if seed < 0:
         raise SgimError(f"seed is {seed}, expected 0 or more")
-    choosers = {learner for chapter in chapters for learner in chapter.choosers}
+    choosers: dict[Chooser, ReadRun] = {
+        (chapter.experiment, learner): chapter.read_chooser
+        for chapter in chapters
+        for learner in chapter.choosers
+    }
     known = {chapter.experiment for chapter in chapters}
     runs = read_runs(paths, choosers)
-    about = [run for run in runs if _main(run) in known]
-    others = Counter(str(run.experiment) for run in runs if _main(run) not in known)
+    about = [run for run in runs if main_experiment(run) in known]
+    others = Counter(str(run.experiment) for run in runs if main_experiment(run) not in known)
     if not about:
         raise SgimError(
             f"there are only runs of {', '.join(sorted(others))}, and claims about "
@@ -81,19 +91,13 @@ def report(
     kept = _configured(about, configuration)
     tables: list[Verdicts] = []
     for chapter in chapters:
-        worlds = worlds_of([run for run in kept if _main(run) == chapter.experiment], at)
+        worlds = worlds_of([run for run in kept if main_experiment(run) == chapter.experiment], at)
         tables += [decide(chapter, world, seed) for world in worlds]
     notes = [
         f"no claims are about {name}: left out {count} run{'s' * (count > 1)}"
         for name, count in sorted(others.items())
     ]
     return Report(tuple(tables), tuple(count_worlds(tables)), seed, tuple(notes))
-
-
-def _main(run: MeasuredRun) -> str | None:
-    """The experiment of a run, or the one of which it is a variant."""
-    experiment = EXPERIMENTS.get(run.experiment or "")
-    return experiment.variant_of or experiment.name if experiment else run.experiment
 
 
 def _configured(runs: Sequence[MeasuredRun], configuration: str | None) -> Sequence[MeasuredRun]:

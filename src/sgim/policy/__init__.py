@@ -2,20 +2,37 @@
 
 from sgim.policy.explorer import Episode, Explorer
 from sgim.policy.local_search import LocalSearch
+from sgim.policy.mixture_model import Learning, MixtureModel
+from sgim.policy.mixture_search import AroundRest, MixtureSearch
 from sgim.policy.model import CompetenceModel, InverseModel, NearestModel, NoAnswerError
 from sgim.policy.nelder_mead import NelderMeadSearch
-from sgim.policy.simple import Mimicry, NoisyNearest, RandomPolicies
+from sgim.policy.population import (
+    CovarianceAdaptation,
+    MakeDistribution,
+    PathIntegral,
+    PopulationSearch,
+)
+from sgim.policy.simple import Mimicry, NoisyNearest, PolicyOfLabel, RandomPolicies
 
 __all__ = [
+    "AroundRest",
     "CompetenceModel",
+    "CovarianceAdaptation",
     "Episode",
     "Explorer",
     "InverseModel",
+    "Learning",
     "LocalSearch",
+    "MakeDistribution",
     "Mimicry",
+    "MixtureModel",
+    "MixtureSearch",
     "NearestModel",
     "NelderMeadSearch",
     "NoAnswerError",
     "NoisyNearest",
+    "PolicyOfLabel",
+    "PathIntegral",
+    "PopulationSearch",
     "RandomPolicies",
 ]

@@ -6,7 +6,8 @@ import numpy as np
 
 from sgim.environments.fishing.model import FAST, JOINTS, Variant
 from sgim.environments.fishing.movement import AMPLITUDES, HOME
-from sgim.environments.fishing.simulator import mujoco, prepared
+from sgim.environments.fishing.simulator import prepared
+from sgim.environments.mujoco import mujoco
 from sgim.spaces import FloatArray
 
 LOW: FloatArray = HOME - AMPLITUDES
@@ -33,7 +34,7 @@ class LedArm:
     """
 
     def __init__(self, variant: Variant = FAST) -> None:
-        self._engine = mujoco()
+        self._engine = mujoco("the arm that is led is simulated")
         self._model, self._start = prepared(variant)
         self._data = self._engine.MjData(self._model)
         self._stiff = self._engine.MjData(self._model)  # the arm with a straight rod
