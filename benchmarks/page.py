@@ -103,14 +103,19 @@ def time_drags(folder: Path) -> None:
             about={"experiment": "fishing"},
         )
         with serve(run, port=0) as page:
-            if pace is not None:
-                options = {"pace": pace}
-                threading.Thread(
-                    target=lambda: run.go(10**9, **options),  # noqa: B023
-                    daemon=True,
-                ).start()
-                time.sleep(1.0)
+            over = threading.Event()
+            going = threading.Thread(target=explore_on, args=(run, pace, over))
+            going.start()
             report(what, asyncio.run(drags(page.url)))
+            over.set()
+            going.join()
+        run.close()
+
+
+def explore_on(run: sgim.Run, pace: float | None, over: threading.Event) -> None:
+    """Let a run go on at a pace, if it is to go on, until it is over."""
+    while pace is not None and not over.is_set():
+        run.go(run.movements + 2, pace=pace)
 
 
 def explore(folder: Path, name: str, movements: int, watched: str) -> float:

@@ -180,6 +180,15 @@ def test_away_lets_requests_expire_at_once_and_busy_keeps_them(lesson: Lesson) -
     assert len(lesson.box.requests()) == 1
 
 
+def test_a_shorter_time_limit_holds_for_what_is_asked_already(lesson: Lesson) -> None:
+    lesson.steps(5)
+    lesson.send("available", "s", detail={"status": "now", "time_limit": 10.0})
+    lesson.steps(1)
+    lesson.now += 11.0
+    lesson.steps(1)
+    assert [ended.how for ended in lesson.events(Ended)] == ["expired"]
+
+
 def test_demonstrations_and_goals_come_unasked(lesson: Lesson) -> None:
     lesson.send("demonstrate", "d", detail=shown())
     lesson.send("suggest", "g", detail={"kind": "throw", "point": [5.0, 2.0]})

@@ -212,6 +212,10 @@ class Asking:
             time_limit=float(detail.get("time_limit", desk.teacher.time_limit)),
             per_hour=int(detail.get("per_hour", desk.teacher.per_hour)),
         )
+        latest = self._clock() + desk.teacher.time_limit
+        for plan in [plan for plan, until in desk.until.items() if until > latest]:
+            desk.until[plan] = latest
+            self._write("UPDATE requests SET until = ? WHERE plan = ?", latest, plan)
 
     def _say_who_is_there(self) -> None:
         """Tell the learner who can be asked now, and the page how each person stands."""

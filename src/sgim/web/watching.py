@@ -119,7 +119,10 @@ class Watched:
         self.movements += counts.get("told", 0)
         if "opened" in counts:
             statement = f"SELECT name, count(*) {within} AND event = 'opened' GROUP BY name"
-            self._strip.append((self.movements, Counter(dict(db.execute(statement, rows)))))
+            opened = Counter(dict(db.execute(statement, rows)))
+            for mode in opened:
+                self._mode(mode)
+            self._strip.append((self.movements, opened))
             if len(self._strip) > 4 * WINDOWS:
                 self._strip = _merged(self._strip, 2 * WINDOWS)
             statement = (
