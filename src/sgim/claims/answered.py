@@ -37,7 +37,8 @@ class Answered:
         """The run with its errors at some of its evaluations, by this way.
 
         Raises:
-            SgimError: If the run is of no experiment of the library.
+            SgimError: If the run is of no experiment of the library, or of one that is not
+                measured by answering goals.
             UnknownNameError: If there is no such way of answering.
             JournalError: If the journal cannot be read.
         """
@@ -63,7 +64,10 @@ class Answered:
             raise SgimError(f"{run.path} is of no experiment of the library: it has no benchmark")
         if name not in self._benchmarks:
             declared = EXPERIMENTS[name]
-            self._benchmarks[name] = declared.benchmark(declared.environment())
+            made = declared.benchmark(declared.environment())
+            if not isinstance(made, Benchmark):
+                raise SgimError(f"{name} is not measured by answering goals: leave --by out")
+            self._benchmarks[name] = made
         return self._benchmarks[name]
 
 

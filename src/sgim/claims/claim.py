@@ -7,9 +7,10 @@ from dataclasses import dataclass
 from typing import Any, Literal
 
 from sgim.claims.components import Component, Finding
-from sgim.claims.measures import Error
-from sgim.claims.world import World, apart
+from sgim.claims.measures import Error, learners_of
+from sgim.claims.world import ReadRun, World, apart
 from sgim.runs.contrasts import LEVEL
+from sgim.runs.summary import read_run
 from sgim.statistics import holm, least_pairs
 from sgim.streams import Streams
 
@@ -50,12 +51,14 @@ class Chapter:
         title: What it is about, and where the thesis has it.
         experiment: Name of the experiment; its variants count as plausible worlds.
         claims: The claims.
+        read_chooser: How a run is read whose choices the claims are about.
     """
 
     name: str
     title: str
     experiment: str
     claims: tuple[Claim, ...]
+    read_chooser: ReadRun = read_run
 
     @property
     def learners(self) -> list[str]:
@@ -83,7 +86,8 @@ class Chapter:
         """Whose choices, or whatever else is not in evaluations, its claims are about."""
         components = (part for claim in self.claims for part in claim.components)
         measures = (m for part in components for m in (part.one, part.other))
-        return {apart(m.learner)[0] for m in measures if not isinstance(m, float) and m.of_choices}
+        chosen = [m for m in measures if not isinstance(m, float) and m.of_choices]
+        return {apart(learner)[0] for measure in chosen for learner in learners_of(measure)}
 
 
 @dataclass(frozen=True)

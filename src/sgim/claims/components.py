@@ -7,7 +7,7 @@ from typing import Any, Literal
 
 import numpy as np
 
-from sgim.claims.measures import Measure, Unit
+from sgim.claims.measures import JointMeasure, Measure, Unit, learners_of
 from sgim.claims.world import World
 from sgim.runs.contrasts import common_seeds
 from sgim.spaces import FloatArray
@@ -23,6 +23,8 @@ from sgim.statistics import (
     signed_rank_p,
 )
 from sgim.streams import Streams
+
+Measured = Measure | JointMeasure
 
 Relation = Literal["lower", "not higher", "equal", "reaches", "steadier"]
 
@@ -52,9 +54,9 @@ class Component:
         times: By which the other is multiplied before: to be at most half of it is .5.
     """
 
-    one: Measure
+    one: Measured
     relation: Relation
-    other: Measure | float
+    other: Measured | float
     times: float = 1.0
 
     def __str__(self) -> str:
@@ -71,7 +73,8 @@ class Component:
     @property
     def learners(self) -> list[str]:
         """Whose runs it needs."""
-        return [m.learner for m in (self.one, self.other) if not isinstance(m, float)]
+        measures = (m for m in (self.one, self.other) if not isinstance(m, float))
+        return [learner for measure in measures for learner in learners_of(measure)]
 
     @property
     def margin(self) -> float | None:
@@ -207,17 +210,17 @@ class Finding:
         }
 
 
-def lower(one: Measure, other: Measure | float, times: float = 1.0) -> Component:
+def lower(one: Measured, other: Measured | float, times: float = 1.0) -> Component:
     """One is lower than so many times the other: Wilcoxon or Mann and Whitney, two-sided."""
     return Component(one, "lower", other, times)
 
 
-def not_higher(one: Measure, other: Measure | float) -> Component:
+def not_higher(one: Measured, other: Measured | float) -> Component:
     """One is lower than the other, or higher by less than the margin: one-sided."""
     return Component(one, "not higher", other)
 
 
-def equal(one: Measure, other: Measure | float) -> Component:
+def equal(one: Measured, other: Measured | float) -> Component:
     """The two differ by less than the margin: two one-sided tests."""
     return Component(one, "equal", other)
 

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import ClassVar, Literal, Protocol
+from typing import ClassVar, Literal, Protocol, runtime_checkable
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,6 +17,45 @@ Unit = Literal["error", "share", "count"]
 
 ANY = "any"
 """Instead of a teacher's name: whichever."""
+
+
+@runtime_checkable
+class JointMeasure(Protocol):
+    """A number of each seed, from the runs of several learners together.
+
+    It has what a `Measure` has, and ``values`` instead of ``of``.
+    """
+
+    @property
+    def learners(self) -> tuple[str, ...]:
+        """Whose runs it needs."""
+        ...
+
+    @property
+    def learner(self) -> str:
+        """All of them, in words."""
+        ...
+
+    @property
+    def what(self) -> str:
+        """See `Measure`."""
+        ...
+
+    @property
+    def unit(self) -> Unit:
+        """See `Measure`."""
+        ...
+
+    @property
+    def of_choices(self) -> bool:
+        """See `Measure`."""
+        ...
+
+    def values(
+        self, groups: Mapping[str, Sequence[MeasuredRun]], movements: int
+    ) -> dict[int | None, float]:
+        """The number of each seed; NaN if it has none."""
+        ...
 
 
 class Measure(Protocol):
@@ -45,6 +84,11 @@ class Measure(Protocol):
     def of(self, run: MeasuredRun, movements: int) -> float:
         """The number of a run after so many movements; NaN if it has none."""
         ...
+
+
+def learners_of(measure: Measure | JointMeasure) -> tuple[str, ...]:
+    """Whose runs a measure needs."""
+    return measure.learners if isinstance(measure, JointMeasure) else (measure.learner,)
 
 
 @dataclass(frozen=True)

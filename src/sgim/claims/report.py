@@ -11,9 +11,16 @@ from typing import Any
 from sgim.claims.answered import Answered
 from sgim.claims.claim import Chapter, Verdicts, decide
 from sgim.claims.plausible import Plausible, count_worlds
-from sgim.claims.world import base_of, linked, read_runs, worlds_of
+from sgim.claims.world import (
+    Chooser,
+    ReadRun,
+    base_of,
+    linked,
+    main_experiment,
+    read_runs,
+    worlds_of,
+)
 from sgim.errors import SgimError, unknown
-from sgim.experiments import EXPERIMENTS
 from sgim.runs.measured import MeasuredRun
 
 
@@ -72,11 +79,15 @@ def report(
     """
     if seed < 0:
         raise SgimError(f"seed is {seed}, expected 0 or more")
-    choosers = {learner for chapter in chapters for learner in chapter.choosers}
+    choosers: dict[Chooser, ReadRun] = {
+        (chapter.experiment, learner): chapter.read_chooser
+        for chapter in chapters
+        for learner in chapter.choosers
+    }
     known = {chapter.experiment for chapter in chapters}
     runs = read_runs(paths, choosers)
-    about = [run for run in runs if _main(run) in known]
-    others = Counter(str(run.experiment) for run in runs if _main(run) not in known)
+    about = [run for run in runs if main_experiment(run) in known]
+    others = Counter(str(run.experiment) for run in runs if main_experiment(run) not in known)
     if not about:
         raise SgimError(
             f"there are only runs of {', '.join(sorted(others))}, and claims about "
@@ -87,7 +98,7 @@ def report(
         kept = _answered(kept, by, {moment for one in chapters for moment in one.moments}, at)
     tables: list[Verdicts] = []
     for chapter in chapters:
-        worlds = worlds_of([run for run in kept if _main(run) == chapter.experiment], at)
+        worlds = worlds_of([run for run in kept if main_experiment(run) == chapter.experiment], at)
         several = [decide(chapter, w, seed) for w in linked(worlds, chapter.experiment)]
         # Some worlds are there only to be compared with another.
         decided = [verdicts for verdicts in several if any(v.findings for v in verdicts.verdicts)]
@@ -99,12 +110,6 @@ def report(
     if by is not None:
         notes.append(f"errors are those of answering by {by}, measured again from the journals")
     return Report(tuple(tables), tuple(count_worlds(tables)), seed, tuple(notes))
-
-
-def _main(run: MeasuredRun) -> str | None:
-    """The experiment of a run, or the one of which it is a variant."""
-    experiment = EXPERIMENTS.get(run.experiment or "")
-    return experiment.variant_of or experiment.name if experiment else run.experiment
 
 
 def _configured(runs: Sequence[MeasuredRun], configuration: str | None) -> Sequence[MeasuredRun]:

@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Container, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
-from sgim.claims.measures import Measure
+from sgim.claims.measures import JointMeasure, Measure
+from sgim.experiments import EXPERIMENTS
 from sgim.runs.comparable import select
 from sgim.runs.measured import MeasuredRun, read_measured
-from sgim.runs.summary import read_run
+from sgim.runs.summary import RecordedRun
+
+Chooser = tuple[str | None, str | None]
+ReadRun = Callable[[Path], RecordedRun]
 
 
 @dataclass(frozen=True)
@@ -53,8 +57,10 @@ class World:
         name, world = self._found(learner)
         return world is not None and name in world.groups
 
-    def values(self, measure: Measure) -> dict[int | None, float]:
-        """The measure of each run of its learner, by seed."""
+    def values(self, measure: Measure | JointMeasure) -> dict[int | None, float]:
+        """The measure of each run of its learner, by seed; or of each seed of its learners."""
+        if isinstance(measure, JointMeasure):
+            return measure.values(self.groups, self.movements)
         name, world = self._found(measure.learner)
         assert world is not None
         return {run.seed: measure.of(run, world.movements) for run in world.groups[name]}
@@ -104,14 +110,28 @@ def linked(worlds: Sequence[World], experiment: str) -> list[World]:
     return [w if w.settings else replace(w, elsewhere=near(w)) for w in worlds]
 
 
-def read_runs(paths: Iterable[Path], choosers: Container[str | None]) -> list[MeasuredRun]:
-    """Read runs; the episodes only of those learners whose choices are asked for.
+def read_runs(paths: Iterable[Path], choosers: Mapping[Chooser, ReadRun]) -> list[MeasuredRun]:
+    """Read runs; more than their errors only of those learners whose choices are asked for.
+
+    Args:
+        paths: The journals.
+        choosers: Experiment (or that of which it is a variant) and learner → how to read its runs.
 
     Raises:
         JournalError: If one cannot be read.
     """
-    runs = map(read_measured, paths)
-    return [read_run(run.path) if run.learner in choosers else run for run in runs]
+    runs = []
+    for path in paths:
+        run = read_measured(path)
+        read = choosers.get((main_experiment(run), run.learner))
+        runs.append(run if read is None else read(path))
+    return runs
+
+
+def main_experiment(run: MeasuredRun) -> str | None:
+    """The experiment of a run, or the one of which it is a variant."""
+    experiment = EXPERIMENTS.get(run.experiment or "")
+    return experiment.variant_of or experiment.name if experiment else run.experiment
 
 
 def worlds_of(runs: Iterable[MeasuredRun], at: int | None = None) -> list[World]:

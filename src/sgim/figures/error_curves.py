@@ -11,6 +11,7 @@ import numpy as np
 
 from sgim.errors import SgimError
 from sgim.experiments import EXPERIMENTS
+from sgim.experiments.recognition_benchmark import TAKEN_FOR
 from sgim.figures.curves import BANDS, Band, Curve, curve
 from sgim.figures.style import MARKERS, OKABE_ITO, NothingToDrawError, new_figure, read_runs, tidy
 from sgim.runs.costs import Prices, Spending, read_spending
@@ -60,7 +61,7 @@ def error_curves(
     if not runs:
         raise SgimError("no run was evaluated: there are no errors to draw")
     groups = by_learner(runs)
-    kinds = list(runs[0].evaluations[-1].errors)
+    kinds = [k for k in runs[0].evaluations[-1].errors if not k.startswith(TAKEN_FOR)]
     if all(e.errors["total"] == e.errors[kinds[0]] for run in runs for e in run.evaluations):
         kinds.remove("total")  # there is one kind only
     spent = None if prices is None else _spending(groups)

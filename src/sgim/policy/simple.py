@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -47,6 +47,21 @@ class RandomPolicies(Stateless):
     def propose(self, episodes: Sequence[Episode]) -> list[Any]:
         """One draw for each episode."""
         return [self.space.sample(e.rng) for e in episodes]
+
+
+class PolicyOfLabel(Stateless):
+    """Proposes the one policy there is for a label, where policies are choices and not vectors.
+
+    Args:
+        policies: Label → policy.
+    """
+
+    def __init__(self, policies: Mapping[str, Any]) -> None:
+        self.policies = dict(policies)
+
+    def propose(self, episodes: Sequence[Episode]) -> list[Any]:
+        """The policy of each episode's label."""
+        return [None if e.goal is None else self.policies[e.goal.point] for e in episodes]
 
 
 class Mimicry(Stateless):

@@ -13,7 +13,8 @@ if TYPE_CHECKING:
     from rich.live import Live
     from rich.progress import Progress, TaskID
 
-    from sgim.runs.run import Observer, Run
+    from sgim.runs.observer import Observer
+    from sgim.runs.run import Run
     from sgim.runs.sweep import SweptRun
 
 LATELY = 200

@@ -5,21 +5,23 @@ from __future__ import annotations
 import time
 import warnings
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any
 
 from sgim.environments.base import MinimalEnvironment
 from sgim.errors import JournalError, SgimError
 from sgim.events import Evaluated, Session
 from sgim.learner import Learner
-from sgim.records import Plan
-from sgim.runs.benchmark import Benchmark
+from sgim.records import Outcome, Plan
+from sgim.runs.benchmark import Measures
 from sgim.runs.continuation import keep_journal, session_facts
 from sgim.runs.interrupt import InterruptWish
 from sgim.runs.journal import Journal
 from sgim.runs.journal_reading import first_difference
+from sgim.runs.observer import Observer
 from sgim.runs.replay import Replayed, iterate_trials
+from sgim.runs.telling import answer_together, tell_together
 from sgim.runs.world import Executed, World
 from sgim.streams import Streams
 from sgim.teachers import Teacher
@@ -31,26 +33,6 @@ class RunError(SgimError):
 
 class Interrupted(SgimError):  # noqa: N818 - not an error of the run
     """The user asked the run to stop; everything told is in the journal."""
-
-
-class Observer(Protocol):
-    """Is told how a run goes, to show it."""
-
-    def started(self, run: Run, target: int) -> None:
-        """The run goes on until ``target`` movements."""
-        ...
-
-    def moved(self, run: Run) -> None:
-        """Some movements were made."""
-        ...
-
-    def evaluated(self, run: Run, evaluation: Evaluated) -> None:
-        """The repertoire was measured."""
-        ...
-
-    def ended(self, run: Run) -> None:
-        """The run stopped, finished or not."""
-        ...
 
 
 class Run:
@@ -94,7 +76,7 @@ class Run:
         teachers: Mapping[str, Teacher] | None = None,
         *,
         journal: str | Path | None = None,
-        benchmark: Benchmark | None = None,
+        benchmark: Measures | None = None,
         evaluate_every: int = 1000,
         batch: int = 1,
         real: bool = False,
@@ -218,22 +200,31 @@ class Run:
             return
         if n > 0:
             learner.ask_batch(n, world.contexts(first, n))
-        for plan in learner.pending:
-            if plan.request is not None:
+        requests = [plan for plan in learner.pending if plan.request is not None]
+        if len(requests) > 1 and answer_together(learner, requests, world):
+            for plan in requests:
+                self._failures[_teacher_of(plan)] = 0
+        else:
+            for plan in requests:
                 self._answered(plan)
         plans = learner.pending
+        executed = list(zip(plans, world.execute_all(plans), strict=True))
         given_up: RunError | None = None
-        for plan, outcome in zip(plans, world.execute_all(plans), strict=True):
-            try:
-                self._tell(plan, outcome, observer)
-            except RunError as error:  # the movements behind it have been made, too
-                given_up = given_up or error
+        while executed:
+            due = self.evaluate_every - self.movements % self.evaluate_every
+            if outcomes := tell_together(learner, executed[:due]):
+                self._told(outcomes, observer)
+            else:
+                try:
+                    self._tell(*executed[0], observer)
+                except RunError as error:  # the movements behind it have been made, too
+                    given_up = given_up or error
+            del executed[: len(outcomes) or 1]
         if given_up is not None:
             raise given_up
 
     def _answered(self, plan: Plan) -> Plan:
-        assert plan.request is not None
-        teacher = f"teacher {plan.request.teacher!r}"
+        teacher = _teacher_of(plan)
         try:
             following = self.learner.answer(plan, self.world.demonstration(plan))
             self._failures[teacher] = 0
@@ -250,13 +241,22 @@ class Run:
         else:
             try:
                 self.learner.tell(plan, outcome)
-                self._failures["the world"] = 0
             except JournalError:
                 raise
             except SgimError as error:
                 self._failed("the world", error, plan)
             else:
-                self.world.observed(outcome)
+                self._told([outcome], observer)
+                return
+        self._evaluate_if_due(observer)
+
+    def _told(self, outcomes: Sequence[Outcome], observer: Observer | None) -> None:
+        self._failures["the world"] = 0
+        for outcome in outcomes:
+            self.world.observed(outcome)
+        self._evaluate_if_due(observer)
+
+    def _evaluate_if_due(self, observer: Observer | None) -> None:
         if self.learner.movements % self.evaluate_every == 0:
             self._evaluate(observer)
 
@@ -300,6 +300,11 @@ class Run:
 
     def __exit__(self, *exception: object) -> None:
         self.close()
+
+
+def _teacher_of(plan: Plan) -> str:
+    assert plan.request is not None
+    return f"teacher {plan.request.teacher!r}"
 
 
 def _checked_teachers(teachers: Mapping[str, Teacher] | None) -> dict[str, Teacher]:

@@ -8,6 +8,7 @@ from sgim.statistics.bootstrap import (
     contrast_estimates,
     interquartile_estimate,
 )
+from sgim.statistics.change_points import stages
 from sgim.statistics.effects import probability_lower, rank_biserial
 from sgim.statistics.significance import (
     equivalence_p,
@@ -39,4 +40,5 @@ __all__ = [
     "probability_lower",
     "rank_biserial",
     "signed_rank_p",
+    "stages",
 ]

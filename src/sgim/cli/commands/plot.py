@@ -11,7 +11,15 @@ from typing import TYPE_CHECKING, Annotated, Literal
 from tyro.conf import Positional, arg
 
 from sgim.errors import SgimError
-from sgim.figures import choices, choices_by_kind, error_curves, explored, places, progress
+from sgim.figures import (
+    choices,
+    choices_by_kind,
+    error_curves,
+    explored,
+    of_worlds,
+    places,
+    progress,
+)
 from sgim.figures.curves import Band
 from sgim.figures.style import NothingToDrawError
 from sgim.runs.costs import Prices
@@ -40,6 +48,16 @@ def command(
     NAME-outcomes   how often each learner's movements ended where
     NAME-goals      how often each learner aimed where
     RUN-explored    what has been explored, for one run of each learner, or for --each
+
+    Where objects are recognised, also:
+    NAME-recognised pictures recognised over episodes
+    RUN-f-measures  how well each object is told apart, and which was manipulated
+
+    Of vocal runs also:
+    NAME-classes    classes of sounds over time in all runs, and the stages counted
+    RUN-stages      the same of one run, with the types of sounds in each stage
+    RUN-densities   goals, commands and sounds over time
+    RUN-sounds      early and mature sounds, and those of the ambient language
 
     The line is the interquartile mean of the runs and the band its 95 % bootstrap interval at
     each evaluation; with --band quartiles, the median and the quartiles. sgim compare says
@@ -79,6 +97,7 @@ def command(
             (f"{stem}-outcomes", partial(places, runs, "outcomes")),
             (f"{stem}-goals", partial(places, runs, "goals")),
             *((f"{path.stem}-explored", partial(explored, path)) for path in chosen),
+            *of_worlds.drawings(stem, runs, chosen),
         ]
         for title, draw in drawings:
             file = out / f"{title}.{format}"

@@ -29,10 +29,12 @@ def command(
     movements: Annotated[
         int | None, arg(metavar="INT", help_behavior_hint="(default: the experiment's)")
     ] = None,
-    batch: int = 1,
+    batch: Annotated[
+        int | None, arg(metavar="INT", help_behavior_hint="(default: the experiment's)")
+    ] = None,
     evaluate_every: Annotated[
         int | None,
-        arg(metavar="INT", help_behavior_hint="(default: at most 1000, and a quarter of the run)"),
+        arg(metavar="INT", help_behavior_hint="(default: at most the experiment's, and a quarter)"),
     ] = None,
     jobs: int = 2,
     out: Path = Path("runs"),
@@ -75,8 +77,8 @@ def command(
                 numbers,
                 configuration=configuration,
                 movements=target,
-                batch=batch,
-                evaluate_every=evaluate_every or evaluation_interval(target),
+                batch=world.batch if batch is None else batch,
+                evaluate_every=evaluate_every or evaluation_interval(target, world.evaluate_every),
                 jobs=jobs,
                 out=out,
                 on_end=shown.ended,
