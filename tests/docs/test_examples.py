@@ -22,6 +22,8 @@ from sgim.errors import JournalError
 from sgim.events import Answered, Ended, Opened, Told
 from sgim.outcome.expected_gain import ExpectedGain
 from sgim.outcome.region_tree import RegionTree
+from sgim.policy.answering import KernelMean, Reliable
+from sgim.policy.local_model import LocalModel
 from sgim.policy.local_search import LocalSearch
 from sgim.policy.model import NearestModel
 from sgim.policy.nelder_mead import NelderMeadSearch
