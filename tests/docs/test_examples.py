@@ -25,7 +25,8 @@ from sgim.experiments.sweep_plan import plan, read_sweep_file
 from sgim.mixture_settings import MixtureSettings
 from sgim.outcome.expected_gain import ExpectedGain
 from sgim.outcome.region_tree import RegionTree
-from sgim.policy import KernelMean, LocalModel, Reliable
+from sgim.policy.answering import KernelMean, Reliable
+from sgim.policy.local_model import LocalModel
 from sgim.policy.local_search import LocalSearch
 from sgim.policy.model import NearestModel
 from sgim.policy.nelder_mead import NelderMeadSearch
