@@ -16,6 +16,7 @@ version = release = sgim.__version__
 
 extensions = ["sphinx.ext.autodoc", "sphinx.ext.napoleon", "myst_parser", "claims_obtained"]
 exclude_patterns = ["_build", "results"]
+html_static_path = ["sounds"]
 myst_enable_extensions = ["colon_fence", "deflist"]
 myst_heading_anchors = 3
 

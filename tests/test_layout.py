@@ -35,6 +35,7 @@ SPINE = (
     {"claims"},
     {"figures"},
     {"reproductions"},
+    {"web"},
 )
 """Each may know those before it, and its own."""
 
@@ -47,7 +48,7 @@ WORLD = {"environments", "teachers", "primitives"}
 MEASURES = {"statistics"}
 """Pure functions on arrays: they know the words, and those who measure runs know them."""
 
-DRIVERS = ("runs", "experiments", "claims", "figures", "reproductions")
+DRIVERS = ("runs", "experiments", "claims", "figures", "reproductions", "web")
 """What brings learners and worlds together, and measures them."""
 
 LEARNER_CODE = (
@@ -78,7 +79,17 @@ ORDINARY_WORDS = {("outcome", "place")}
 """Identifiers that are the English word: a region tree's records have a place in the unit box."""
 
 LONGEST_FILE = 350
-HEAVY = ("scipy", "matplotlib", "tyro", "rich", "joblib", "mujoco", "cv2")
+HEAVY = (
+    "scipy",
+    "matplotlib",
+    "tyro",
+    "rich",
+    "joblib",
+    "mujoco",
+    "cv2",
+    "starlette",
+    "uvicorn",
+)
 
 
 def allowed(part: str) -> set[str] | None:

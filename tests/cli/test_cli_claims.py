@@ -183,5 +183,13 @@ def test_every_chapter_is_about_an_experiment_with_learners_that_exist() -> None
 
     for chapter in CHAPTERS.values():
         assert EXPERIMENTS[chapter.experiment].variant_of is None
-        for learner in chapter.learners:
-            EXPERIMENTS[chapter.experiment].learner(learner)
+        for (name, settings), learners in chapter.sweeps.items():
+            configuration = f"modern,{settings}" if settings else "modern"
+            for learner in learners:
+                EXPERIMENTS[name].learner(learner, configuration=configuration)
+
+
+def test_runs_of_other_worlds_that_a_chapter_needs_are_proposed(sgim) -> None:  # type: ignore[no-untyped-def]
+    said = sgim("claims", "fishing").out
+    assert "sgim sweep fishing-wide --learners sgim-d:D3,sagg-riac --seeds" in said
+    assert "--configuration modern,demonstration_every=80" in said

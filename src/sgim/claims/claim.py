@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from typing import Any, Literal
 
 from sgim.claims.components import Component, Finding
-from sgim.claims.measures import learners_of
-from sgim.claims.world import ReadRun, World
+from sgim.claims.measures import Error, learners_of
+from sgim.claims.world import ReadRun, World, apart
 from sgim.runs.contrasts import LEVEL
 from sgim.runs.summary import read_run
 from sgim.runs.sweep_run import seed_words
@@ -67,12 +67,28 @@ class Chapter:
         return list(dict.fromkeys(x for claim in self.claims for x in claim.learners))
 
     @property
+    def sweeps(self) -> dict[tuple[str, str], list[str]]:
+        """Experiment, and settings that differ from the configuration → whose runs are needed."""
+        found: dict[tuple[str, str], list[str]] = {}
+        for learner in self.learners:
+            name, experiment, settings = apart(learner)
+            found.setdefault((experiment or self.experiment, settings), []).append(name)
+        return found
+
+    @property
+    def moments(self) -> set[int]:
+        """Evaluations that its claims name, in movements."""
+        components = (part for claim in self.claims for part in claim.components)
+        measures = (m for part in components for m in (part.one, part.other))
+        return {m.at for m in measures if isinstance(m, Error) and m.at is not None}
+
+    @property
     def choosers(self) -> set[str]:
-        """Whose choices its claims are about."""
+        """Whose choices, or whatever else is not in evaluations, its claims are about."""
         components = (part for claim in self.claims for part in claim.components)
         measures = (m for part in components for m in (part.one, part.other))
         chosen = [m for m in measures if not isinstance(m, float) and m.of_choices]
-        return {learner for measure in chosen for learner in learners_of(measure)}
+        return {apart(name)[0] for measure in chosen for name in learners_of(measure)}
 
 
 @dataclass(frozen=True)
@@ -194,7 +210,7 @@ def decide(chapter: Chapter, world: World, seed: int = 0) -> Verdicts:
         seed: Of the bootstrap; the intervals are a function of it and of the runs.
     """
     streams, notes = Streams(seed), list(world.notes)
-    needs = [tuple(x for x in claim.learners if x not in world.groups) for claim in chapter.claims]
+    needs = [tuple(x for x in claim.learners if not world.has(x)) for claim in chapter.claims]
     tested = [
         tuple(part.test(world, streams, notes) for part in claim.components) if not lacking else ()
         for claim, lacking in zip(chapter.claims, needs, strict=True)

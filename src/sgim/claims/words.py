@@ -9,9 +9,9 @@ from sgim.statistics.words import interval
 
 
 def effect_words(finding: Finding) -> str:
-    """How large an effect is: the ratio (×) of errors, or the difference of shares in points."""
+    """How large an effect is: the ratio (×), or the difference of shares in points."""
     effect = finding.effect
-    if finding.component.one.unit == "error":
+    if finding.component.one.unit != "share":
         return f"× {interval(effect)}"
     points = Estimate(100 * effect.value, 100 * effect.low, 100 * effect.high)
     return f"{interval(points, '+')} points"

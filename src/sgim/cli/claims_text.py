@@ -31,11 +31,12 @@ def print_chapter(chapter: Chapter, stream: TextIO) -> None:
     for claim in chapter.claims:
         _print_claim(claim, stream)
         print(table([[str(part)] for part in claim.components], indent=" " * 7), file=stream)
-    learners = ",".join(chapter.learners)
-    sweep = ("sgim", "sweep", chapter.experiment, "--learners", learners, "--seeds", _SEEDS)
     folder = f"runs/{chapter.name}-claims"
     print("\nTo decide them:", file=stream)
-    print(f"  {shell(*sweep, '--out', folder)}", file=stream)
+    for (experiment, settings), learners in chapter.sweeps.items():
+        sweep = ["sgim", "sweep", experiment, "--learners", ",".join(learners), "--seeds", _SEEDS]
+        sweep += ["--configuration", f"modern,{settings}"] if settings else []
+        print(f"  {shell(*sweep, '--out', folder)}", file=stream)
     print(f"  {shell('sgim', 'claims', chapter.name, '--runs', folder)}", file=stream)
 
 

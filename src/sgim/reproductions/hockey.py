@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from sgim.claims.hockey import HOCKEY, SGIM_ACTS, SGIM_D, SGIM_IM
+from sgim.claims.hockey import HOCKEY, SGIM_D, SGIM_IM
 from sgim.experiments.sweep_plan import Part
 from sgim.reproductions.declaration import Reproduction
 from sgim.reproductions.drawings import choices_over_time, errors, profiles
@@ -30,14 +30,14 @@ REPRODUCTION = Reproduction(
         errors(
             "controls",
             "Learners that may ask, and controls",
-            (SGIM_IM, SGIM_D, SGIM_ACTS, *FIRST, "uniform-choice", "round-robin"),
+            (SGIM_IM, SGIM_D, "sgim-acts", *FIRST, "uniform-choice", "round-robin"),
         ),
         profiles(
             "profiles",
             "How many runs are how good",
             (SGIM_IM, SGIM_D, "sagg-riac", "random", *FIRST),
         ),
-        choices_over_time("choices", "What is chosen over time", (SGIM_IM, SGIM_D, SGIM_ACTS)),
+        choices_over_time("choices", "What is chosen over time", (SGIM_IM, SGIM_D, "sgim-acts")),
     ),
     worlds=(
         Part(

@@ -17,6 +17,7 @@ from sgim.statistics.significance import (
     least_pairs,
     less_margin,
     mann_whitney_p,
+    mean_vector_p,
     not_higher_p,
     signed_rank_p,
 )
@@ -34,6 +35,7 @@ __all__ = [
     "least_pairs",
     "less_margin",
     "mann_whitney_p",
+    "mean_vector_p",
     "not_higher_p",
     "performance_profile",
     "probability_lower",

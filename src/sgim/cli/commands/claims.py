@@ -28,6 +28,10 @@ def command(
         int | None,
         arg(metavar="MOVEMENTS", help_behavior_hint="(default: the last evaluation that all have)"),
     ] = None,
+    by: Annotated[
+        str | None,
+        arg(metavar="WAY", help_behavior_hint="(default: as the runs were measured)"),
+    ] = None,
     seed: int = 0,
     details: bool = False,
     as_json: Annotated[bool, arg(name="json")] = False,
@@ -61,6 +65,8 @@ def command(
         runs: Directory of journals, as sgim sweep writes them.
         configuration: Only runs of this configuration, and of it with other settings.
         at: Decide at this evaluation; runs that have not got there are left out.
+        by: Measure the runs again by this way of answering, such as nearest or reliable; what is
+            found is kept beside the journals.
         seed: Of the bootstrap.
         details: Also print each claim's sentence and all its tests; in JSON, all tests with the
             numbers of each run.
@@ -71,7 +77,9 @@ def command(
         for one in chosen:
             print_chapter(one, sys.stdout)
         return
-    found = report(find_journals([runs]), chosen, configuration=configuration, at=at, seed=seed)
+    found = report(
+        find_journals([runs]), chosen, configuration=configuration, at=at, by=by, seed=seed
+    )
     if as_json:
         print(json.dumps(found.as_json(details=details), indent=1, ensure_ascii=False))
         return

@@ -18,6 +18,8 @@ from sgim.figures import (
     explored,
     of_worlds,
     performance_profiles,
+    places,
+    progress,
 )
 from sgim.figures.curves import Band
 from sgim.figures.style import NothingToDrawError
@@ -44,6 +46,9 @@ def command(
     NAME-profiles   share of a learner's runs whose last error is at most so much
     NAME-choices    modes and kinds of goal chosen over time, all seeds together
     NAME-strategies modes chosen for each kind of goal, by learners that choose both
+    NAME-progress   modes chosen over time, and what each gained per movement
+    NAME-outcomes   how often each learner's movements ended where
+    NAME-goals      how often each learner aimed where
     RUN-explored    what has been explored, for one run of each learner, or for --each
 
     Where objects are recognised, also:
@@ -91,6 +96,9 @@ def command(
             *([(f"{stem}-profiles", partial(performance_profiles, runs))] if len(runs) > 1 else []),
             (f"{stem}-choices", partial(choices, runs)),
             (f"{stem}-strategies", partial(choices_by_kind, runs)),
+            (f"{stem}-progress", partial(progress, runs)),
+            (f"{stem}-outcomes", partial(places, runs, "outcomes")),
+            (f"{stem}-goals", partial(places, runs, "goals")),
             *((f"{path.stem}-explored", partial(explored, path)) for path in chosen),
             *of_worlds.drawings(stem, runs, chosen),
         ]
