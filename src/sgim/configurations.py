@@ -112,7 +112,7 @@ class Configuration(MixtureSettings):
     request_initiation: int = 10
     request_least: float = 0.1
     label_window: int = 8
-    label_uniform: float = 0.25
+    label_uniform: float = 0.3
     label_pick: Literal["proportional", "argmax"] = "proportional"
     answering: Literal["nearest", "reliable", "kernel", "local"] = "nearest"
 

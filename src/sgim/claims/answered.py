@@ -66,7 +66,7 @@ class Answered:
             declared = EXPERIMENTS[name]
             made = declared.benchmark(declared.environment())
             if not isinstance(made, Benchmark):
-                raise SgimError(f"{name} is not measured by answering goals: leave --by out")
+                raise SgimError(f"{name} is measured by no goals that could be answered otherwise")
             self._benchmarks[name] = made
         return self._benchmarks[name]
 

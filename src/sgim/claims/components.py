@@ -190,24 +190,34 @@ class Finding:
             return f"{len(self.one)}, {len(self.other)}"
         return f"{len(self.one)} pairs"
 
-    def as_json(self) -> dict[str, Any]:
-        """Everything, JSON-compatible."""
+    def as_json(self, *, numbers: bool) -> dict[str, Any]:
+        """What it says, JSON-compatible.
+
+        Args:
+            numbers: Whether to add the numbers of each run, and what the test is in detail.
+        """
         component = self.component
-        return {
+        found: dict[str, Any] = {
             "component": str(component),
-            "relation": component.relation,
-            "times": component.times,
-            "margin": component.margin,
             "unit": component.one.unit,
-            "learners": component.learners,
-            "seeds": self.seeds,
-            "one": self.one.tolist(),
-            "other": self.other.tolist(),
-            "difference": self.difference.as_json(),
-            "ratio": self.ratio.as_json(),
+            "effect": self.effect.as_json(),
             "p": self.p,
-            "direction": self.direction,
+            "n": self.runs,
         }
+        if numbers:
+            found |= {
+                "relation": component.relation,
+                "times": component.times,
+                "margin": component.margin,
+                "learners": component.learners,
+                "seeds": self.seeds,
+                "one": self.one.tolist(),
+                "other": self.other.tolist(),
+                "difference": self.difference.as_json(),
+                "ratio": self.ratio.as_json(),
+                "direction": self.direction,
+            }
+        return found
 
 
 def lower(one: Measured, other: Measured | float, times: float = 1.0) -> Component:

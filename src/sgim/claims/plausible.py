@@ -72,9 +72,11 @@ class Plausible:
 
 
 def count_worlds(several: Sequence[Verdicts]) -> list[Plausible]:
-    """Count, for each chapter and base configuration that has several worlds."""
+    """Count, for each chapter and base configuration with claims decided in several worlds."""
     groups: dict[tuple[str, str], list[Verdicts]] = {}
     for verdicts in several:
+        if all(verdict.word == "no runs" for verdict in verdicts.verdicts):
+            continue
         groups.setdefault((verdicts.chapter.name, verdicts.world.base), []).append(verdicts)
     return [_count(members) for members in groups.values() if len(members) > 1]
 

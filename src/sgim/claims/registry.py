@@ -10,7 +10,7 @@ from sgim.claims.throwing import THROWING
 from sgim.claims.vocal import VOCAL
 from sgim.errors import unknown
 
-CHAPTERS = {chapter.name: chapter for chapter in (OBJECTS, THROWING, HOCKEY, FISHING, VOCAL)}
+CHAPTERS = {chapter.name: chapter for chapter in (OBJECTS, FISHING, THROWING, HOCKEY, VOCAL)}
 
 
 def chapter(name: str) -> Chapter:

@@ -40,11 +40,11 @@ class Report:
     seed: int
     notes: tuple[str, ...]
 
-    def as_json(self) -> dict[str, Any]:
-        """Everything, JSON-compatible."""
+    def as_json(self, *, details: bool) -> dict[str, Any]:
+        """Tables and counts, JSON-compatible; with details, also all tests and their numbers."""
         return {
             "seed": self.seed,
-            "tables": [verdicts.as_json() for verdicts in self.verdicts],
+            "tables": [verdicts.as_json(details=details) for verdicts in self.verdicts],
             "plausible": [plausible.as_json() for plausible in self.plausible],
             "notes": list(self.notes),
         }

@@ -10,6 +10,7 @@ from sgim.figures.fishing import fishing_movement
 from sgim.figures.hockey_shots import hockey_shots
 from sgim.figures.mixtures import mixture_interest, mixture_learning
 from sgim.figures.places import places
+from sgim.figures.profiles import performance_profiles
 from sgim.figures.progress import progress
 from sgim.figures.recognition import f_measures, recognised
 from sgim.figures.toys import contact_sheet, database
@@ -18,6 +19,7 @@ from sgim.figures.vocal_densities import vocal_densities
 from sgim.figures.vocal_sounds import vocal_sounds
 from sgim.figures.vocal_strategies import vocal_strategies
 from sgim.figures.vocal_tract import draw_tract, vocal_articulators
+from sgim.figures.vocal_vowels import vocal_vowels
 from sgim.figures.vocalisation import vocalisation
 
 __all__ = [
@@ -31,6 +33,7 @@ __all__ = [
     "f_measures",
     "fishing_movement",
     "hockey_shots",
+    "performance_profiles",
     "mixture_interest",
     "mixture_learning",
     "places",
@@ -41,6 +44,7 @@ __all__ = [
     "vocal_densities",
     "vocal_sounds",
     "vocal_stages",
+    "vocal_vowels",
     "vocal_strategies",
     "vocalisation",
 ]

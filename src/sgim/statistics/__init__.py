@@ -7,6 +7,7 @@ from sgim.statistics.bootstrap import (
     bootstrap_interval,
     contrast_estimates,
     interquartile_estimate,
+    profile_estimate,
 )
 from sgim.statistics.change_points import stages
 from sgim.statistics.effects import probability_lower, rank_biserial
@@ -38,6 +39,7 @@ __all__ = [
     "not_higher_p",
     "performance_profile",
     "probability_lower",
+    "profile_estimate",
     "rank_biserial",
     "signed_rank_p",
     "stages",

@@ -57,7 +57,7 @@ def command(
       sgim sweep throwing-5 --learners sgim-acts,demonstrations-first --seeds 0-19 --out runs/s
       sgim claims throwing --runs runs/s
       sgim claims throwing --runs runs/s --configuration modern --details
-      sgim claims --runs runs/s --json
+      sgim claims --runs runs/s --json --details
 
     Args:
         chapters: Chapters whose claims to decide.
@@ -67,8 +67,9 @@ def command(
         by: Measure the runs again by this way of answering, such as nearest or reliable; what is
             found is kept beside the journals.
         seed: Of the bootstrap.
-        details: Also print each claim's sentence and all its tests.
-        as_json: Print JSON with everything, also the numbers of each run.
+        details: Also print each claim's sentence and all its tests; in JSON, all tests with the
+            numbers of each run.
+        as_json: Print JSON.
     """
     chosen = [chapter(name) for name in dict.fromkeys(chapters or CHAPTERS)]
     if runs is None:
@@ -79,6 +80,6 @@ def command(
         find_journals([runs]), chosen, configuration=configuration, at=at, by=by, seed=seed
     )
     if as_json:
-        print(json.dumps(found.as_json(), indent=2, ensure_ascii=False))
+        print(json.dumps(found.as_json(details=details), indent=1, ensure_ascii=False))
         return
     print_report(found, sys.stdout, details=details)

@@ -17,6 +17,7 @@ from sgim.figures import (
     error_curves,
     explored,
     of_worlds,
+    performance_profiles,
     places,
     progress,
 )
@@ -42,6 +43,7 @@ def command(
 
     NAME-errors     errors over movements, a line with a band for each learner
     NAME-costs      the same over the time of robot and persons, if anybody was asked
+    NAME-profiles   share of a learner's runs whose last error is at most so much
     NAME-choices    modes and kinds of goal chosen over time, all seeds together
     NAME-strategies modes chosen for each kind of goal, by learners that choose both
     NAME-progress   modes chosen over time, and what each gained per movement
@@ -91,6 +93,7 @@ def command(
         drawings: list[tuple[str, Callable[[], Figure]]] = [
             (f"{stem}-errors", partial(error_curves, runs, band=band)),
             (f"{stem}-costs", partial(error_curves, runs, band=band, prices=prices)),
+            *([(f"{stem}-profiles", partial(performance_profiles, runs))] if len(runs) > 1 else []),
             (f"{stem}-choices", partial(choices, runs)),
             (f"{stem}-strategies", partial(choices_by_kind, runs)),
             (f"{stem}-progress", partial(progress, runs)),

@@ -67,23 +67,18 @@ class Rig(Environment):
                 generator.
             SgimError: If the simulation becomes unstable.
         """
-        if trajectory.joints != JOINTS or trajectory.unit != "rad":
-            raise SpaceError(
-                f"trajectory is of joints {', '.join(trajectory.joints)} in {trajectory.unit}, "
-                f"expected {', '.join(JOINTS)} in rad"
-            )
-        recorded = trajectory.times - trajectory.times[0]
-
-        def path(times: FloatArray) -> FloatArray:
-            columns = [np.interp(times, recorded, column) for column in trajectory.positions.T]
-            return np.stack(columns, axis=1)
-
-        return self._observed(commanded(path, self._times(float(recorded[-1])), self.noise, rng))
+        path, duration = _recorded(trajectory)
+        return self._observed(commanded(path, self._times(duration), self.noise, rng))
 
     def positions(self, policy: Any) -> tuple[tuple[str, ...], FloatArray]:
         """Where all bodies are during a movement without noise; see `Simulator.positions`."""
         path, times = self._movement(policy)
         return self._simulator.positions(path(times))
+
+    def positions_led(self, trajectory: Trajectory) -> tuple[tuple[str, ...], FloatArray]:
+        """As `positions`, for an arm that is led as in `follow`, without noise."""
+        path, duration = _recorded(trajectory)
+        return self._simulator.positions(path(self._times(duration)))
 
     def _movement(self, policy: Any) -> tuple[Path, FloatArray]:
         """The set-points that a policy asks for, and the times of the simulation's steps."""
@@ -99,3 +94,19 @@ class Rig(Environment):
     @abstractmethod
     def _observed(self, set_points: FloatArray) -> Outcome:
         """What comes of set-points in rad, one row a time step, shape ``(t, 6)``."""
+
+
+def _recorded(trajectory: Trajectory) -> tuple[Path, float]:
+    """The path of a recorded movement, and how long it lasts in s."""
+    if trajectory.joints != JOINTS or trajectory.unit != "rad":
+        raise SpaceError(
+            f"trajectory is of joints {', '.join(trajectory.joints)} in {trajectory.unit}, "
+            f"expected {', '.join(JOINTS)} in rad"
+        )
+    recorded = trajectory.times - trajectory.times[0]
+
+    def path(times: FloatArray) -> FloatArray:
+        columns = [np.interp(times, recorded, column) for column in trajectory.positions.T]
+        return np.stack(columns, axis=1)
+
+    return path, float(recorded[-1])
