@@ -7,6 +7,7 @@ import shutil
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -15,6 +16,11 @@ NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable"
 
 REQUIRED = "SGIM_BROWSER_TESTS"
 """Set to ``required``, this makes tests fail that would be skipped without a browser."""
+
+PICTURES = "SGIM_PICTURES"
+"""Set to anything, this makes the tests write the pictures of ``docs/images`` again."""
+
+IMAGES = Path(__file__).parent.parent.parent / "docs" / "images"
 
 OPTIONS = [
     "--no-sandbox",
@@ -60,6 +66,17 @@ class Hand:
         said = lambda: self.page.inner_text(selector)  # noqa: E731
         until(lambda: words in said(), f"{words!r} in {selector}", seconds, said)
         return str(said())
+
+    def picture(self, name: str, size: tuple[int, int] = (1280, 800)) -> None:
+        """Make a picture for the documentation, if such are asked for."""
+        if not os.environ.get(PICTURES):
+            return
+        before = self.page.viewport_size
+        self.page.set_viewport_size({"width": size[0], "height": size[1]})
+        self.page.wait_for_timeout(700)
+        self.page.screenshot(path=IMAGES / f"{name}.png")
+        self.page.set_viewport_size(before)
+        self.page.wait_for_timeout(300)
 
     def state(self) -> str:
         return str(self.page.evaluate("window.sgim.state()"))

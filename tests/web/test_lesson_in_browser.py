@@ -109,8 +109,10 @@ def test_a_whole_lesson(browser: Any, path: Path) -> None:
     try:
         hand = visit(browser, lesson.url)
         hand.wait_text("#asked", "asks you")
+        hand.picture("teach-request")
         worth = draw(hand)
         assert "correspondence error" in worth
+        hand.picture("teach-take")
         hand.page.keyboard.press("ArrowRight")
         said = hand.wait_text("#letters", "learned: error")
         before, after = (float(x) for x in re.findall(r"([\d.]+) %", said)[:2])
@@ -130,6 +132,9 @@ def test_a_whole_lesson(browser: Any, path: Path) -> None:
         ]
         assert closed.after > closed.before
 
+        hand.picture("teach-learned")
+        hand.picture("teach-phone", (390, 800))
+
         # What is not answered expires, and the learner explores meanwhile.
         hand.page.fill("#time-limit", "5")
         hand.page.press("#time-limit", "Tab")
@@ -140,6 +145,7 @@ def test_a_whole_lesson(browser: Any, path: Path) -> None:
         hand.page.click("#tab-watch")
         hand.wait_text("#requests-line", "answered 1")
         hand.wait_text("#requests-line", "not answered")
+        hand.picture("watch")
         hand.page.context.close()
     finally:
         lesson.kill()

@@ -38,6 +38,8 @@ export class Hand {
   private origin: [number, number] = [0, 0]; // of the world's time, and of ours
   private tempo = 1;
   private looping = false;
+  private latest = -Infinity;
+  private waiting = false;
 
   /**
    * @param send Sends a message, if there is a connection.
@@ -139,6 +141,7 @@ export class Hand {
 
   /** The world begins anew: what was on its way does not count any more. */
   begin(joints: number[]): void {
+    this.waiting = false;
     this.queue = [];
     this.unanswered = [];
     this.first = this.number + 1;
@@ -150,8 +153,14 @@ export class Hand {
     this.wake();
   }
 
-  /** Connected again: send once more what was not answered. */
+  /** The connection is lost: what is drawn waits. */
+  wait(): void {
+    this.waiting = true;
+  }
+
+  /** Connected again: send once more what was not answered, before anything new. */
   again(): void {
+    this.waiting = false;
     for (const lead of this.unanswered) this.send(lead);
     this.wake();
   }
@@ -181,9 +190,15 @@ export class Hand {
   }
 
   private add(sample: Sample): void {
-    this.queue.push(sample);
     this.raw.push(sample.row);
+    this.push(sample);
     this.wake();
+  }
+
+  /** Times must increase, but a pointer's moment may lie before the one that was sent last. */
+  private push(sample: Sample): void {
+    this.latest = Math.max(sample.row[0], this.latest + 2e-5);
+    this.queue.push({ by: sample.by, row: [this.latest, ...sample.row.slice(1)] });
   }
 
   private step(): void {
@@ -194,8 +209,8 @@ export class Hand {
     // With nobody moving, time passes for a while all the same: the line swings, the puck flies.
     const goesOn = this.busy() || this.dragging || now - this.moved < SETTLING;
     if (goesOn && !this.queue.length && this.last && !this.unanswered.length)
-      this.queue.push({ by: this.last.by, row: [this.time(now), ...this.last.row.slice(1)] });
-    while (this.queue.length && this.unanswered.length < IN_FLIGHT) {
+      this.push({ by: this.last.by, row: [this.time(now), ...this.last.row.slice(1)] });
+    while (!this.waiting && this.queue.length && this.unanswered.length < IN_FLIGHT) {
       const by = this.queue[0].by;
       let count = this.queue.findIndex((sample) => sample.by !== by);
       if (count < 0) count = this.queue.length;

@@ -85,6 +85,7 @@ export class Teaching {
 
   lost(): void {
     this.connected = false;
+    this.hand.wait();
     if (this.busy) announce("The connection is lost. Go on: what you draw is kept.");
   }
 

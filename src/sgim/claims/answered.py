@@ -37,8 +37,7 @@ class Answered:
         """The run with its errors at some of its evaluations, by this way.
 
         Raises:
-            SgimError: If the run is of no experiment of the library, or of one that is not
-                measured by answering goals.
+            SgimError: If the run is of no experiment of the library.
             UnknownNameError: If there is no such way of answering.
             JournalError: If the journal cannot be read.
         """

@@ -36,8 +36,6 @@ __all__ = [
     "performance_profiles",
     "mixture_interest",
     "mixture_learning",
-    "places",
-    "progress",
     "recognised",
     "vocal_articulators",
     "vocal_classes",
@@ -47,4 +45,6 @@ __all__ = [
     "vocal_vowels",
     "vocal_strategies",
     "vocalisation",
+    "places",
+    "progress",
 ]
