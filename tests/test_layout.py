@@ -34,6 +34,7 @@ SPINE = (
     {"experiments"},
     {"claims"},
     {"figures"},
+    {"reproductions"},
     {"web"},
 )
 """Each may know those before it, and its own."""
@@ -47,7 +48,7 @@ WORLD = {"environments", "teachers", "primitives"}
 MEASURES = {"statistics"}
 """Pure functions on arrays: they know the words, and those who measure runs know them."""
 
-DRIVERS = ("runs", "experiments", "claims", "figures", "web")
+DRIVERS = ("runs", "experiments", "claims", "figures", "reproductions", "web")
 """What brings learners and worlds together, and measures them."""
 
 LEARNER_CODE = (

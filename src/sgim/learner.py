@@ -91,7 +91,7 @@ class Learner(Transitions, Answers):
     @property
     def pending(self) -> list[Plan]:
         """The plans that are out, oldest first."""
-        return [plan for _, (plan, _) in sorted(self.ledger.plans.items())]
+        return [plan for plan, _ in self.ledger.plans.values()]  # as they were given out
 
     @property
     def absent(self) -> frozenset[str]:
@@ -257,14 +257,15 @@ class Learner(Transitions, Answers):
         checked = self.task.check_outcomes(outcomes)
         trials = [Trial(p.policy, o, p.context) for p, o in zip(plans, checked, strict=True)]
         known = self.remember(some, trials)
+        taken = [None] * len(plans) if seconds is None else seconds
         reports: list[Report] = []
         troubles: list[BaseException] = []
-        for i, (plan, trial) in enumerate(zip(plans, trials, strict=True)):
-            if self.record is not None:
-                taken = None if seconds is None else seconds[i]
-                self._emit(Told(plan.id, trial.outcome, taken))
+        for plan, running, trial, remembered, time in zip(
+            plans, some, trials, known, taken, strict=True
+        ):
+            self._emit(Told(plan.id, trial.outcome, time))
             try:
-                reports.append(self.learn_trial(plan, some[i], trial, known[i]))
+                reports.append(self.learn_trial(plan, running, trial, remembered))
             except BaseException as error:  # those behind it have happened, too
                 troubles.append(error)
         if troubles:

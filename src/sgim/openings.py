@@ -70,10 +70,10 @@ class Openings:
             Situation(number, self._absent, context, under_way)
             for number, context in enumerate(contexts, start=first)
         ]
-        rngs = [self.streams("learner", situation.episode) for situation in now]
-        self._drawn_from = {s.episode: rng for s, rng in zip(now, rngs, strict=True)}
-        choices = choose_all(self.strategy, now, rngs)
-        goals = self._checked([choice.goal for choice in choices])
+        drawn_from = {s.episode: self.streams("learner", s.episode) for s in now}
+        choices = choose_all(self.strategy, now, [*drawn_from.values()])
+        goals = self._checked([choice[1] for choice in choices])
+        self._drawn_from = drawn_from
         if self._given or self._suggestions:
             return [self._taken_up(now[0], choices[0], goals[0])]
         return [
@@ -93,6 +93,8 @@ class Openings:
 
     def _checked(self, chosen: Sequence[Goal | None]) -> list[Goal | None]:
         """Goals that a strategy has chosen, checked."""
+        if len(chosen) == 1:
+            return [goal and self.task.check_goal(goal.kind, goal.point) for goal in chosen]
         goals: list[Goal | None] = [None] * len(chosen)
         kinds: dict[str, list[int]] = {}
         for i, goal in enumerate(chosen):
@@ -156,16 +158,22 @@ class Openings:
 
     def _take_up(self, some: Sequence[Running]) -> None:
         """Pursue the goals of episodes, now that all there is to know about them is known."""
+        goals: list[Goal] = []
+        aimed: list[Episode] = []
+        live: list[Running] = []
         for running in some:
             self._aim(running)
-        live = [running for running in some if running.live]
-        aimed = [(r.episode, r.episode.goal) for r in live if r.episode.goal is not None]
-        goals = [goal for _, goal in aimed]
-        known = competences(self.model, goals, [episode.context for episode, _ in aimed])
-        for (episode, _), competence in zip(aimed, known, strict=True):
-            episode.before = episode.best = competence
+            if running.live:
+                live.append(running)
+                if (goal := running.episode.goal) is not None:
+                    goals.append(goal)
+                    aimed.append(running.episode)
+        if aimed:
+            known = competences(self.model, goals, [episode.context for episode in aimed])
+            for episode, competence in zip(aimed, known, strict=True):
+                episode.before = episode.best = competence
         for explorer, members in by_explorer(live):
-            begin_all(explorer, [live[i].episode for i in members])
+            begin_all(explorer, [running.episode for running in members])
 
     def _aim(self, running: Running) -> None:
         episode, mode = running.episode, running.mode
@@ -225,24 +233,26 @@ class Openings:
 
         They are checked, and such that no world can change what is remembered.
         """
-        ready = [i for i, running in enumerate(some) if not running.must_ask]
-        policies: list[Any] = [None] * len(some)
-        for explorer, members in by_explorer([some[i] for i in ready]):
-            chosen = [ready[i] for i in members]
-            given = explorer.propose([some[i].episode for i in chosen])
-            for i, policy in zip(chosen, given, strict=True):
-                policies[i] = policy
-        for i, policy in zip(ready, self._sealed([policies[i] for i in ready]), strict=True):
-            policies[i] = policy
-        return policies
+        ready: list[Running] = []
+        given: list[Any] = []
+        for explorer, members in by_explorer([r for r in some if not r.must_ask]):
+            ready += members
+            given += explorer.propose([running.episode for running in members])
+        policies: dict[int, Any] = {}
+        for running, policy in zip(ready, self._sealed(given), strict=True):
+            policies[running.episode.id] = policy
+        return [policies.get(running.episode.id) for running in some]
 
     def _sealed(self, policies: Sequence[Any]) -> list[Any]:
         """These policies checked, those of a box all at once and not to be written to."""
         space = self.task.policy_space
         if not isinstance(space, Box):
             return [self.task.check_policy(policy) for policy in policies]
-        points = np.array(space.check_all(policies, "policy"))
-        if len(points) and not space.contains(points):
+        try:
+            points = np.array(policies, dtype=np.float64)
+        except (TypeError, ValueError):  # what is malformed is named one by one, below
+            points = np.empty(0)
+        if points.shape[1:] != space.low.shape or not space.contains(points):
             points = np.array([self.task.check_policy(policy) for policy in policies])
         points.setflags(write=False)
         return list(points)
@@ -264,10 +274,14 @@ class Openings:
                 self._unwritten = self._unwritten or error
 
 
-def by_explorer(some: Sequence[Running]) -> list[tuple[Explorer, list[int]]]:
-    """Which of these episodes each explorer has."""
-    groups: dict[int, tuple[Explorer, list[int]]] = {}
-    for i, running in enumerate(some):
+def by_explorer(some: Sequence[Running]) -> list[tuple[Explorer, list[Running]]]:
+    """The episodes that each explorer has."""
+    groups: dict[int, tuple[Explorer, list[Running]]] = {}
+    for running in some:
         explorer = running.mode.explorer
-        groups.setdefault(id(explorer), (explorer, []))[1].append(i)
+        group = groups.get(id(explorer))
+        if group is None:
+            groups[id(explorer)] = explorer, [running]
+        else:
+            group[1].append(running)
     return list(groups.values())

@@ -30,6 +30,8 @@ COMMANDS = {
     "sweep": "Run many learners with many seeds side by side.",
     "compare": "Which learner is better over its seeds, and whether that could be chance.",
     "claims": "What is claimed of learners, and whether runs bear it out.",
+    "reproduce": "Make a chapter of the thesis again: runs, figures, claims, a report.",
+    "export": "Runs as tables of trials, episodes and evaluations.",
     "plot": "Draw errors, choices and explored outcomes.",
 }
 

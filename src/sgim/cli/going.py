@@ -8,6 +8,7 @@ from pathlib import Path
 
 from sgim.cli.text import choices, evaluations, example_goal, shell, troubles
 from sgim.experiments import EXPERIMENTS
+from sgim.policy import InverseModel
 from sgim.runs.progress import duration, progress
 from sgim.runs.run import Interrupted, Run, RunError
 from sgim.runs.summary import RecordedRun, read_run
@@ -39,8 +40,9 @@ def go(run: Run, path: Path, target: int, *, pace: float = math.inf) -> int:
     report(recorded)
     print(f"\njournal  {path} ({recorded.movements} movements, {duration(run.seconds)})")
     print(f"figures  {shell('sgim', 'plot', path, '--out', 'figures')}")
-    goal = example_goal(recorded.task.goal_spaces)
-    print(f"answers  {shell('sgim', 'answer', path, '--goal', goal)}")
+    if isinstance(run.learner.model, InverseModel):
+        goal = example_goal(recorded.task.goal_spaces)
+        print(f"answers  {shell('sgim', 'answer', path, '--goal', goal)}")
     return 0
 
 

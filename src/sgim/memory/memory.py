@@ -87,6 +87,7 @@ class KindMemory:
     ) -> None:
         self.space = outcome_space
         self.context_space = context_space
+        self.policy_space = policies.space
         self.dimension = outcome_space.dimension
         self.outcomes = PointColumn(outcome_space)
         self.trials = Column(0, np.int64)

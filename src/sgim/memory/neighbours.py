@@ -52,6 +52,17 @@ def _squared_distances(columns: FloatArray, point: FloatArray) -> FloatArray:
     return total
 
 
+def _squares_between(columns: FloatArray, points: FloatArray) -> FloatArray:
+    """As `_squared_distances` of columns of shape (d, m or 1, n) to each of m points: (m, n)."""
+    total: FloatArray = columns[0] - points[:, :1]
+    total *= total
+    for column, coordinates in zip(columns[1:], points.T[1:], strict=True):
+        difference = column - coordinates[:, None]
+        difference *= difference
+        total += difference
+    return total
+
+
 def _bound_on_smallest(values: FloatArray, k: int) -> float:
     """An upper bound, nearly tight, on the k-th smallest value; infinity if there is none."""
     if not 0 < k <= len(values):
@@ -172,29 +183,28 @@ class NearestNeighbours:
     ) -> Neighbours:
         """The k nearest to each of many points, among what trees propose and the newest."""
         parts = [tree.members(rows, k) for tree, (rows, _) in zip(trees, answers, strict=True)]
-        found = np.concatenate([np.empty((len(points), 0), dtype=np.intp), *parts], axis=1)
+        parts = parts or [np.empty((len(points), 0), dtype=np.intp)]
+        found = parts[0] if len(parts) == 1 else np.concatenate(parts, axis=1)
         squares = self._squares(found, points)
         if not trees or trees[-1].start + trees[-1].size < self._count:
             bounds = np.full(len(points), math.inf)
             if squares.shape[1] >= k:
                 bounds = np.partition(squares, k - 1, axis=1)[:, k - 1]
             near, apart = self._newest_within(points, bounds)
-            found, squares = np.append(found, near, axis=1), np.append(squares, apart, axis=1)
+            found = np.concatenate((found, near), axis=1)
+            squares = np.concatenate((squares, apart), axis=1)
         distances = np.sqrt(squares)
         order = distances.argsort(axis=1)
         sorted_ = np.take_along_axis(distances, order[:, : k + 1], axis=1)
         # Of equally distant ones the oldest; that there are any is rare.
         tied = np.flatnonzero((sorted_[:, 1:] == sorted_[:, :-1]).any(axis=1))
         order[tied] = np.lexsort((found[tied], distances[tied]), axis=1)
-        order = order[:, :k]
-        return np.take_along_axis(distances, order, axis=1), np.take_along_axis(
-            found, order, axis=1
-        )
+        return sorted_[:, :k], np.take_along_axis(found, order[:, :k], axis=1)
 
     def _squares(self, found: IndexArray, points: FloatArray) -> FloatArray:
         """Squared distances of found points, shape (m, w), to each of m; infinite for none."""
         columns = np.moveaxis(self._storage.take(found, axis=0), -1, 0)
-        squares = _squared_distances(columns, points.T[:, :, None])
+        squares = _squares_between(columns, points)
         squares[found < 0] = math.inf
         return squares
 
@@ -207,7 +217,7 @@ class NearestNeighbours:
         counts, places, apart = [], [], []
         for start in range(0, len(points), step):
             some = slice(start, start + step)
-            squares = _squared_distances(newest, points[some].T[:, :, None])
+            squares = _squares_between(newest, points[some])
             near = squares <= bounds[some, None] * _SLACK
             counts.append(near.sum(axis=1))
             places.append(near.nonzero()[1])

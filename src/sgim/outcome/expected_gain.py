@@ -216,25 +216,24 @@ class ExpectedGain(Partition):
         """Draw a few goals for each generator, and take the best of each few."""
         numbers = np.array([rng.random((self.goals, self._draws)) for rng in rngs])
         rows, places, picks = self._drawn(numbers.reshape(-1, self._draws), offered, context)
-        modes = offered[self._modes_drawn(rows, offered, picks)]
-        best = self._best(rows, places, modes, context)
-        rows, places, modes = rows[best], places[best], modes[best]
-        kinds = self._table.kind[rows]
-        points: list[Any] = [None] * len(rngs)
-        for kind, name in enumerate(self._kinds):
-            space, members = self.spaces[name], np.flatnonzero(kinds == kind)
-            decoded = space.decode(places[members, : space.dimension])
-            for i, point in zip(members.tolist(), decoded, strict=True):
-                points[i] = Goal(name, point)
-        return list(zip(points, [self._names[mode] for mode in modes.tolist()], strict=True))
+        modes = self._modes_drawn(rows, offered, picks)
+        kinds = self._table.kind[rows].tolist()
+        chosen = self._best(rows, places, modes, kinds, context)
+        named: list[tuple[Goal, str]] = []
+        for i, mode in zip(chosen, modes[chosen].tolist(), strict=True):
+            kind = self._kinds[kinds[i]]
+            space = self.spaces[kind]
+            point = space.decode(places[i, : space.dimension])
+            named.append((Goal(kind, point), self._names[mode]))
+        return named
 
     def _drawn(
         self, numbers: FloatArray, offered: IntArray, context: Any
     ) -> tuple[IntArray, FloatArray, FloatArray]:
         """Regions, places in them, and what is left of the draw of each, for the mode."""
         table, (rules, picks, shares) = self._table, (numbers[:, 0], numbers[:, 1], numbers[:, 2:])
+        leaves: IntArray | None = None
         if self.context_space is None and len(offered) == len(self.modes):
-            leaves = np.arange(len(self.leaves))
             totals = table.totals[: len(self.leaves)]
         else:
             leaves = np.array(self.present(context))
@@ -242,29 +241,35 @@ class ExpectedGain(Partition):
         cumulated = totals.cumsum()
         if cumulated[-1] > 0:
             wanted = picks * cumulated[-1]
-            found = np.minimum(cumulated.searchsorted(wanted, "right"), len(totals) - 1)
-            left = (cumulated[found] - wanted) / np.maximum(totals[found], 1e-300)
+            rows = np.minimum(cumulated.searchsorted(wanted, "right"), len(totals) - 1)
+            left = (cumulated[rows] - wanted) / np.maximum(totals[rows], 1e-300)
             left = np.minimum(left, _BELOW_1)
         else:  # nothing is expected anywhere
-            found, left = (picks * len(totals)).astype(np.int64), rules
-        rows = leaves[found]
-        places = table.low[rows] + shares * (table.high[rows] - table.low[rows])
-        for i in np.flatnonzero(rules < self.uniform).tolist():
-            kind = self._kinds[int(picks[i] * len(self._kinds))]
-            place = shares[i, : self.spaces[kind].dimension].tolist()
-            rows[i], places[i] = self._around(kind, place, context).leaf, shares[i]
-            left[i] = rules[i] / self.uniform
+            rows, left = (picks * len(totals)).astype(np.int64), rules.copy()
+        if leaves is not None:
+            rows = leaves[rows]
+        lows = table.low[rows]
+        places = lows + shares * (table.high[rows] - lows)
+        for i, rule in enumerate(rules.tolist()):
+            if rule < self.uniform:
+                kind = self._kinds[int(picks[i] * len(self._kinds))]
+                place = shares[i, : self.spaces[kind].dimension].tolist()
+                rows[i], places[i] = self._around(kind, place, context).leaf, shares[i]
+                left[i] = rule / self.uniform
         return rows, places, left
 
     def _modes_drawn(self, rows: IntArray, offered: IntArray, picks: FloatArray) -> IntArray:
-        """Places among the modes offered, by their weights in each region."""
-        if len(offered) == 1:
-            return np.zeros(len(rows), dtype=np.int64)
-        cumulated = self._table.weights[rows][:, offered].cumsum(axis=1)
+        """One of the modes offered for each region, by their weights there."""
+        weights = self._table.weights[rows]
+        if len(offered) < len(self.modes):
+            weights = weights[:, offered]
+        cumulated = weights.cumsum(axis=1)
         totals = cumulated[:, -1]
-        places: IntArray = (cumulated <= (picks * totals)[:, None]).sum(axis=1)
-        alike = (picks * len(offered)).astype(np.int64)  # where nothing is expected of any
-        return np.minimum(np.where(totals > 0, places, alike), len(offered) - 1)
+        places = (cumulated <= (picks * totals)[:, None]).sum(axis=1)
+        if not totals.all():  # nothing is expected of any
+            places = np.where(totals > 0, places, (picks * len(offered)).astype(np.int64))
+        modes: IntArray = offered[np.minimum(places, len(offered) - 1)]
+        return modes
 
     def _around(self, kind: str, place: list[float], context: Any) -> Region:
         if self.context_space is None:
@@ -272,20 +277,25 @@ class ExpectedGain(Partition):
         here = np.clip(self.context_space.encode(context), 0.0, 1.0).tolist()
         return self.region_of(kind, [*place, *here])
 
-    def _best(self, rows: IntArray, places: FloatArray, modes: IntArray, context: Any) -> IntArray:
+    def _best(
+        self,
+        rows: IntArray,
+        places: FloatArray,
+        modes: IntArray,
+        kinds: list[int],
+        context: Any,
+    ) -> list[int]:
         """Which of each few goals has the largest expected gain, by what is lacking there now."""
-        few = np.arange(0, len(rows), self.goals)
         if self.goals == 1:
-            return few
+            return list(range(len(rows)))
         gains = self._table.shares[rows, modes] / self.costs[modes]
-        kinds = self._table.kind[rows]
-        for kind, name in enumerate(self._kinds):
-            members = np.flatnonzero(kinds == kind)
-            if len(members):
-                goals = places[members, : self.spaces[name].dimension]
-                gains[members] *= self.lacks(name, goals, context)
-        best: IntArray = few + gains.reshape(-1, self.goals).argmax(axis=1)
-        return best
+        for kind in dict.fromkeys(kinds):
+            members = [i for i, other in enumerate(kinds) if other == kind]
+            name = self._kinds[kind]
+            goals = places[members, : self.spaces[name].dimension]
+            gains[members] *= self.lacks(name, goals, context)
+        best = gains.reshape(-1, self.goals).argmax(axis=1).tolist()
+        return [self.goals * i + place for i, place in enumerate(best)]
 
 
 def _gaps(attempts: Sequence[Attempt], below: BoolArray) -> FloatArray:

@@ -19,7 +19,7 @@ class GainTable:
     Args:
         costs: Cost of each mode, by which gains are divided.
         dimension: Most coordinates of a goal.
-        confidence: How many attempts a prior is worth.
+        confidence: How many attempts a prior is worth, above 0.
         sharpness: How much a mode is preferred to others that gain less in the same region.
 
     Attributes:
@@ -76,13 +76,12 @@ class GainTable:
         if not self._changed:
             return
         rows = sorted(self._changed)
-        priors, counts = self._priors[rows], self._counts[rows]
-        few = counts + self.confidence
-        shares = np.where(counts, (self._sums[rows] + self.confidence * priors) / few, priors)
+        expected = self._sums[rows] + self.confidence * self._priors[rows]
+        shares = expected / (self._counts[rows] + self.confidence)
         values = np.maximum(shares / self.costs, 0.0)
-        best = values.max(axis=1, keepdims=True)
-        values = values * (values / np.where(best > 0, best, 1.0)) ** (self.sharpness - 1)
-        weights = values * (self._volume[rows] * self.lack[rows])[:, None]
+        best = np.maximum(values.max(axis=1), 1e-300)[:, None]
+        weights = values * (values / best) ** (self.sharpness - 1)
+        weights *= (self._volume[rows] * self.lack[rows])[:, None]
         self._shares[rows] = shares
         self._weights[rows] = weights
         self._totals[rows] = weights.sum(axis=1)

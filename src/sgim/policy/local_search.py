@@ -31,7 +31,7 @@ class _State:
         count: How many of the rows are known.
     """
 
-    __slots__ = ("best", "cost", "costs", "count", "goal", "keys", "policies", "proposed")
+    __slots__ = ("best", "cost", "costs", "count", "goal", "keys", "policies", "proposed", "told")
 
     def __init__(
         self,
@@ -49,6 +49,7 @@ class _State:
         self.best = 0 if count else -1
         self.cost = float(costs[0]) if count else 1.0
         self.proposed = policies[:0]
+        self.told: list[tuple[FloatArray, FloatArray, float]] = []
 
     def aim(self, goal: FloatArray) -> None:
         self.goal = goal
@@ -58,7 +59,13 @@ class _State:
             self.best = int(self.costs[: self.count].argmin())
             self.cost = float(self.costs[self.best])
 
-    def add(self, policy: FloatArray, key: FloatArray, cost: float) -> None:
+    def take_in(self) -> None:
+        """Add the trials that were told since the last proposal."""
+        for trial in self.told:
+            self._add(*trial)
+        self.told.clear()
+
+    def _add(self, policy: FloatArray, key: FloatArray, cost: float) -> None:
         n = self.count
         if n == len(self.policies):  # the farthest from the goal makes room
             n = int(self.costs.argmax())
@@ -153,6 +160,7 @@ class LocalSearch:
     def moved(self, episode: Episode) -> None:
         """Measure what is known against the goal in the new context."""
         assert episode.goal is not None
+        episode.state.take_in()
         episode.state.aim(self.model.goal_key(episode.goal, episode.context))
 
     def propose(self, episodes: Sequence[Episode]) -> list[Any]:
@@ -161,6 +169,7 @@ class LocalSearch:
         stepping: dict[int, list[int]] = {}
         for i, episode in enumerate(episodes):
             state: _State = episode.state
+            state.take_in()
             cost = min(1.0, state.cost)
             if state.count < 3 or episode.rng.random() < max(self.least_global, cost):
                 points[i] = episode.rng.random(self.space.dimension)
@@ -231,12 +240,12 @@ class LocalSearch:
         return varied
 
     def learn(self, episode: Episode, trial: Trial, competence: float | None) -> None:
-        """Add the trial to those near the goal, if it produced the goal's kind."""
+        """Keep the trial for the next proposal, if it produced the goal's kind."""
         assert episode.goal is not None
         key = self.model.key_of(trial, episode.goal.kind)
         if key is not None and competence is not None:
             state: _State = episode.state
-            state.add(state.proposed, key, -competence)
+            state.told.append((state.proposed, key, -competence))
 
     def refuse(self, episode: Episode) -> None:
         """Nothing to add: the next step is drawn anew."""

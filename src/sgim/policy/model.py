@@ -11,8 +11,9 @@ import numpy as np
 from sgim.errors import SgimError
 from sgim.memory import Memory
 from sgim.memory.memory import IntArray
+from sgim.policy.answering import Answer, Answering, Nearest
 from sgim.records import Goal, Solution, Trial
-from sgim.spaces import FloatArray
+from sgim.spaces import Box, FloatArray
 
 
 class NoAnswerError(SgimError, LookupError):
@@ -93,20 +94,21 @@ class InverseModel(Protocol):
 
 
 class NearestModel:
-    """Answers with the remembered trial whose outcome is nearest to the goal.
+    """Measures competence by the remembered outcome nearest to the goal, and answers from memory.
 
     The cost of a goal is the distance, in the unit box and at most 1, to the nearest remembered
-    outcome of its kind (thesis eq. 3.3); competence is minus that, in [−1, 0] (eq. 3.8). It is
-    never worse than the nearest neighbour in a deterministic world, because it is that.
+    outcome of its kind (thesis eq. 3.3); competence is minus that, in [−1, 0] (eq. 3.8).
 
     Args:
         memory: The memory, which this model fills.
+        answering: Which policy to answer with; the nearest outcome's if not said.
     """
 
     neighbourhood = 80
 
-    def __init__(self, memory: Memory) -> None:
+    def __init__(self, memory: Memory, answering: Answering | None = None) -> None:
         self.memory = memory
+        self.answering = Nearest() if answering is None else answering
         self._found: dict[int, tuple[Goal, Any, tuple[FloatArray, IntArray]]] = {}
         self._found_among = 0
         self._goal: tuple[Goal | None, Any, FloatArray] = (None, None, np.empty(0))
@@ -231,7 +233,7 @@ class NearestModel:
         difference = key - self.goal_key(goal, context)
         return -min(1.0, math.sqrt(difference.dot(difference)))
 
-    def best_policy(self, goal: Goal, context: Any) -> Any:
+    def nearest_policy(self, goal: Goal, context: Any) -> Any:
         """The policy of the nearest remembered outcome."""
         _, rows = self.nearest(goal, context)
         if not len(rows):
@@ -239,8 +241,12 @@ class NearestModel:
         trials = self.memory.kinds[goal.kind].trials
         return self.memory.policies[int(trials.rows[rows[0]])]
 
+    def best_policy(self, goal: Goal, context: Any) -> Any:
+        """The policy that the way of answering chooses."""
+        return self._policy(goal.kind, self._answer(goal, context))
+
     def best_policies(self, goals: Sequence[Goal], contexts: Sequence[Any]) -> list[Any]:
-        """The policies of the nearest remembered outcomes, by one query for all goals."""
+        """The policies that the way of answering chooses, all goals at once."""
         if not goals:
             return []
         kind = goals[0].kind
@@ -248,11 +254,23 @@ class NearestModel:
         if not len(memory):
             return [None] * len(goals)
         keys = self.memory.keys(kind, [goal.point for goal in goals], contexts)
-        _, rows = memory.nearest_batch(keys, 1)
-        return self.memory.policies.points(memory.trials.rows[rows[:, 0]])
+        return [self._policy(kind, a) for a in self.answering.answers(memory, keys)]
+
+    def _answer(self, goal: Goal, context: Any) -> Answer:
+        memory = self.memory.kinds[goal.kind]
+        if not len(memory):
+            raise NoAnswerError(f"no trial has produced an outcome of kind {goal.kind!r} yet")
+        return self.answering.answers(memory, self.goal_key(goal, context)[None])[0]
+
+    def _policy(self, kind: str, answer: Answer) -> Any:
+        if answer.policy is not None:
+            space = self.memory.task.policy_space
+            assert isinstance(space, Box)  # others have no policies between those remembered
+            return space.decode(answer.policy)
+        return self.memory.policies[int(self.memory.kinds[kind].trials.rows[answer.row])]
 
     def solve(self, goal: Goal, context: Any) -> Solution:
-        """The nearest trial, how much its outcome scatters, and whether the goal is near enough.
+        """The answer, how much its outcome scatters, and whether the goal is near enough.
 
         The spread is what remains of the outcomes of similar policies after a linear map is
         fitted to them, each weighted by the inverse squared distance of its policy from the
@@ -260,15 +278,22 @@ class NearestModel:
         within its task's tolerance, or no farther than twice the distance to which remembered
         outcomes lie apart there.
         """
-        policy = self.best_policy(goal, context)
-        distances, rows = self.nearest(goal, context)
+        answer = self._answer(goal, context)
         memory, tolerance = self.memory.kinds[goal.kind], self.memory.task.tolerances[goal.kind]
-        row, cost = int(rows[0]), min(1.0, float(distances[0]))
-        apart, _ = memory.nearest(memory.keys.rows[row], 6)
-        scaled = self._spread(goal.kind, row)
-        span = getattr(self.memory.task.outcome_spaces[goal.kind], "range", np.ones(len(scaled)))
+        space = self.memory.task.outcome_spaces[goal.kind]
+        key, expected = memory.keys.rows[answer.row], memory.outcomes[answer.row]
+        if answer.expected is not None:
+            assert isinstance(space, Box)  # others have no outcomes between those remembered
+            context_part = self.goal_key(goal, context)[len(answer.expected) :]
+            key, expected = np.append(answer.expected, context_part), space.decode(answer.expected)
+        difference = key - self.goal_key(goal, context)
+        # Summed as the index does, so that the nearest outcome costs what competence says.
+        cost = min(1.0, math.sqrt(sum(x * x for x in difference.tolist())))
+        apart, _ = memory.nearest(memory.keys.rows[answer.row], 6)
+        scaled = self._spread(goal.kind, answer.row)
+        span = getattr(space, "range", np.ones(len(scaled)))
         reachable = cost <= max(tolerance, 2 * float(apart[-1]))
-        return Solution(policy, memory.outcomes[row], cost, scaled * span, reachable)
+        return Solution(self._policy(goal.kind, answer), expected, cost, scaled * span, reachable)
 
     def _spread(self, kind: str, row: int) -> FloatArray:
         """Standard deviation of an outcome's scaled coordinates about a local linear map."""

@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from sgim.policy.answering import localities
 from sgim.policy.explorer import Episode
 from sgim.policy.model import NearestModel
 from sgim.records import Trial
@@ -163,15 +164,12 @@ class NelderMeadSearch:
         key = self.model.memory.key(goal.kind, goal.point, episode.context)
         distances, rows = memory.nearest(key, self.near_outcomes)
         near = max(1, int((distances < self.outcome_radius).sum()))
-        centres = memory.encoded_policies(rows[:near])
-        best_quality, locality = np.inf, rows[:1]
-        for distance, centre in zip(distances[:near], centres, strict=True):
-            apart, around = memory.nearest_policies(centre, n + 1)
-            around = around[apart < self.policy_radius]
-            scatter = float(memory.keys.rows[around].var(axis=0).sum())
-            quality = float(distance) + self.variance_weight * scatter
-            if quality < best_quality:
-                best_quality, locality = quality, around
+        _, locality = min(
+            localities(
+                memory, distances[:near], rows[:near], self.policy_radius, self.variance_weight
+            ),
+            key=lambda found: found[0],
+        )
         policies = memory.encoded_policies(locality)
         offsets = memory.keys.rows[locality] - key
         costs = np.sqrt((offsets**2).sum(axis=1))

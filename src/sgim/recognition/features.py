@@ -109,7 +109,7 @@ class Eye:
     """
 
     def __init__(
-        self, *, most_points: int = 60, contrast: float = 0.02, patch: float = 14.0
+        self, *, most_points: int = 60, contrast: float = 0.02, patch: float = 16.0
     ) -> None:
         self.most_points = most_points
         self.contrast = contrast

@@ -36,7 +36,7 @@ class Settings:
 
     point_radius: float = 0.6
     colour_radius: float = 20.0
-    new_view: float = 0.2
+    new_view: float = 0.5
 
 
 @dataclass(frozen=True)

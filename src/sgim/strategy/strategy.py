@@ -171,5 +171,11 @@ class Aimless:
         """The mode, and no goal."""
         return Choice(self.alone, None)
 
+    def choose_all(
+        self, now: Sequence[Situation], rngs: Sequence[np.random.Generator]
+    ) -> list[Choice]:
+        """As `choose` for several episodes."""
+        return [Choice(self.alone, None)] * len(now)
+
     def update(self, report: EpisodeReport) -> None:
         """Nothing is learned."""

@@ -19,7 +19,7 @@ Pixels = NDArray[np.float32]
 
 _LIGHT = np.array([-0.36, -0.47, 0.81]) / np.linalg.norm([-0.36, -0.47, 0.81])
 _AMBIENT = 0.45
-_CONTRAST = 0.45  # of the toys' texture; the table's is fainter
+_CONTRAST = 0.85  # of the toys' texture; the table's is fainter
 _TABLE = np.array([0.72, 0.68, 0.62])
 _FARTHEST = 10.0
 

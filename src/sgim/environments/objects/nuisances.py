@@ -30,12 +30,12 @@ class Nuisances:
         depth_noise: Standard deviation of the depth in m.
     """
 
-    gain: float = 0.2
-    white_balance: float = 0.06
-    noise: float = 6.0
+    gain: float = 0.3
+    white_balance: float = 0.1
+    noise: float = 8.0
     blur: float = 0.6
-    bar: float = 0.4
-    bar_probability: float = 0.6
+    bar: float = 0.85
+    bar_probability: float = 0.8
     zoom: float = 0.15
     shift: float = 0.03
     depth_noise: float = 0.001

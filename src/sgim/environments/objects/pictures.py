@@ -16,7 +16,7 @@ from sgim.streams import Streams
 
 PICTURES_FILE = "objects_pictures.npz"
 EACH = 64
-SEED = 20_261_124
+SEED = 20_261_125
 
 
 def evaluation_pictures(

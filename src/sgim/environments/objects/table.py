@@ -67,6 +67,7 @@ class ToyTable(Environment):
         self._mujoco = mujoco("the toys are simulated")
         self._camera = Camera(self._mujoco, width, height)
         self._models: dict[str, Any] = {}
+        self._standing: dict[str, FloatArray] = {}
 
     def execute(
         self, policy: Any, context: Any = None, rng: np.random.Generator | None = None
@@ -101,16 +102,14 @@ class ToyTable(Environment):
 
     def presented(self, toy: str, angle: float) -> FloatArray:
         """How a toy stands, or lies if it would not stand, with its front turned by an angle."""
-        return self.settled(toy, (0.0, 0.0, _HELD, *self._turned(toy, angle)))
-
-    def _turned(self, toy: str, angle: float) -> FloatArray:
-        """The quaternion of a toy presented with its front turned by an angle in rad."""
+        if toy not in self._standing:
+            upright = (np.sqrt(0.5), -np.sqrt(0.5), 0, 0) if TOYS[toy].lies else (1, 0, 0, 0)
+            self._standing[toy] = self.settled(toy, (0, 0, _HELD, *upright))
+        pose, turned = self._standing[toy].copy(), np.empty(4)
         about = np.array([np.cos(angle / 2), 0.0, 0.0, np.sin(angle / 2)])
-        if not TOYS[toy].lies:
-            return about
-        both, back = np.empty(4), np.array([np.sqrt(0.5), -np.sqrt(0.5), 0.0, 0.0])
-        self._mujoco.mju_mulQuat(both, about, back)
-        return both
+        self._mujoco.mju_mulQuat(turned, about, pose[3:])
+        pose[3:] = turned
+        return pose
 
     def settled(self, toy: str, start: ArrayLike, velocity: ArrayLike = (0.0,) * 6) -> FloatArray:
         """Let a toy go, and wait until it lies.

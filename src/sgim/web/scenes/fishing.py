@@ -9,7 +9,7 @@ import numpy as np
 from sgim.environments.fishing import FishingRod
 from sgim.environments.fishing.leading import HIGH, LOW, LedArm
 from sgim.environments.fishing.model import JOINTS
-from sgim.environments.fishing.movement import FISHING, HOME, PRIMITIVE
+from sgim.environments.fishing.movement import FISHING, HOME
 from sgim.records import Trajectory
 from sgim.spaces import FloatArray
 from sgim.web.scenes.base import Movement, Shape, ball, fixed, thinned, tube
@@ -22,11 +22,11 @@ class FishingScene:
         self._rod = FishingRod(0.0)
         self._arm = LedArm()
         self.task = self._rod.task
-        self._primitive = PRIMITIVE
+        self._primitive = FISHING
         self.joints: tuple[str, ...] = JOINTS
         self.unit = "rad"
         self.low, self.high, self.home = LOW, HIGH, HOME
-        self.shortest, self.longest = FISHING.shortest, FISHING.longest
+        self.shortest, self.longest = FISHING.timing.shortest, FISHING.timing.longest
 
     def describe(self) -> dict[str, Any]:
         """What the page draws; see `Scene`."""
