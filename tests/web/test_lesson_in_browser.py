@@ -145,7 +145,6 @@ def test_a_whole_lesson(browser: Any, path: Path) -> None:
         hand.page.click("#tab-watch")
         hand.wait_text("#requests-line", "answered 1")
         hand.wait_text("#requests-line", "not answered")
-        hand.picture("watch")
         hand.page.context.close()
     finally:
         lesson.kill()

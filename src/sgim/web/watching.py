@@ -26,7 +26,7 @@ from sgim.spaces import Box
 from sgim.task import Task
 from sgim.web.protocol import GoalMark, Kind, ModeFacts, Outcomes, Region, RunFacts
 
-SLICE = 2000
+SLICE = 250
 """Rows that are counted at once: the grain of the strip of modes."""
 
 AT_ONCE = 400_000
