@@ -21,7 +21,7 @@ SPINE = (
     {"policy"},
     {"outcome"},
     {"strategy"},
-    {"ledger", "transitions", "answers", "learner"},
+    {"ledger", "openings", "transitions", "answers", "learner"},
     {
         "mixture_settings",
         "configurations",
@@ -34,6 +34,8 @@ SPINE = (
     {"experiments"},
     {"claims"},
     {"figures"},
+    {"reproductions"},
+    {"web"},
 )
 """Each may know those before it, and its own."""
 
@@ -46,7 +48,7 @@ WORLD = {"environments", "teachers", "primitives"}
 MEASURES = {"statistics"}
 """Pure functions on arrays: they know the words, and those who measure runs know them."""
 
-DRIVERS = ("runs", "experiments", "claims", "figures")
+DRIVERS = ("runs", "experiments", "claims", "figures", "reproductions", "web")
 """What brings learners and worlds together, and measures them."""
 
 LEARNER_CODE = (
@@ -77,7 +79,17 @@ ORDINARY_WORDS = {("outcome", "place")}
 """Identifiers that are the English word: a region tree's records have a place in the unit box."""
 
 LONGEST_FILE = 350
-HEAVY = ("scipy", "matplotlib", "tyro", "rich", "joblib", "mujoco", "cv2")
+HEAVY = (
+    "scipy",
+    "matplotlib",
+    "tyro",
+    "rich",
+    "joblib",
+    "mujoco",
+    "cv2",
+    "starlette",
+    "uvicorn",
+)
 
 
 def allowed(part: str) -> set[str] | None:

@@ -6,7 +6,9 @@ from collections.abc import Sequence
 from typing import Any
 
 from sgim.errors import SgimError
-from sgim.policy.model import CompetenceModel, InverseModel
+from sgim.policy.answering import Answering
+from sgim.policy.model import CompetenceModel, InverseModel, NearestModel
+from sgim.policy.ways import answering_of
 from sgim.records import Solution
 from sgim.task import Task
 
@@ -48,8 +50,37 @@ class Answers:
         goal = self.task.check_goal(kind, point)
         return self._inverse.solve(goal, self.task.check_context(context))
 
+    def by(self, way: str | Answering) -> Repertoire:
+        """The same repertoire, asked in another way of answering; the memory is shared.
+
+        Args:
+            way: ``"nearest"``, ``"reliable"``, ``"kernel"``, ``"local"``, or one of one's own.
+
+        Raises:
+            SgimError: If what was learned is not a memory of trials, or there is no such way.
+        """
+        if not isinstance(self.model, NearestModel):
+            raise SgimError(
+                f"{type(self.model).__name__} has one way of answering; only a memory of trials "
+                "can be asked in several"
+            )
+        return Repertoire(self.task, NearestModel(self.model.memory, answering_of(way)))
+
     @property
     def _inverse(self) -> InverseModel:
         if not isinstance(self.model, InverseModel):
             raise SgimError(f"{type(self.model).__name__} does not answer with policies")
         return self.model
+
+
+class Repertoire(Answers):
+    """What was learned, to be asked.
+
+    Args:
+        task: The spaces of the world.
+        model: What has been learned.
+    """
+
+    def __init__(self, task: Task, model: CompetenceModel) -> None:
+        self.task = task
+        self.model = model

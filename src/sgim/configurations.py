@@ -37,6 +37,8 @@ class Configuration(MixtureSettings):
         name: ``"thesis"``, ``"modern"``, or a name of one's own.
         search: The goal-directed explorer: ``"nelder-mead"``, ``"local"``, ``"pi2"``, or
             ``"cma-es"``, which needs the extra ``cma``.
+        answering: Which policy answers a goal: that of the ``"nearest"`` outcome, as in the thesis,
+            the most ``"reliable"`` one, the best by a ``"kernel"`` mean, or by a ``"local"`` model.
         search_movements: Movements of an autonomous or emulation episode.
         mimicry_movements: Movements of a mimicry episode (nIm of algorithm 3.2.1).
         mimicry_radius: ε of algorithm 3.2.1, in the policy's own units.
@@ -115,6 +117,7 @@ class Configuration(MixtureSettings):
     label_uniform: float = 0.3
     label_tested: Literal["after", "before"] = "after"
     label_pick: Literal["proportional", "argmax"] = "proportional"
+    answering: Literal["nearest", "reliable", "kernel", "local"] = "nearest"
 
     def __post_init__(self) -> None:
         for name in _AT_LEAST_ONE:
@@ -153,9 +156,11 @@ MODERN = Configuration(
     mixture_bounds="reflect",
     mixture_answers="nearest",
     mixture_scaled=True,
+    interest_weights="correlation",
     interest_uniform=0.1,
     interest_recent=0.02,
     interest_random_modes=0.05,
+    answering="local",
 )
 CONFIGURATIONS = {c.name: c for c in (THESIS, MODERN)}
 

@@ -29,6 +29,7 @@ from sgim.policy import (
     NelderMeadSearch,
     PathIntegral,
     PopulationSearch,
+    answering_of,
 )
 from sgim.strategy import DemonstrationsFirst, JointChoice, Mode, News, Strategy
 from sgim.streams import Streams
@@ -59,7 +60,7 @@ class Parts:
         self.config = configuration_of(configuration)
         self.seed = seed
         self.interest = interest
-        self.model = NearestModel(Memory(task))
+        self.model = NearestModel(Memory(task), answering_of(self.config.answering))
 
     def learner(self, strategy: Strategy, model: CompetenceModel | None = None) -> Learner:
         """A learner with this strategy, its recipe, and the nearest neighbours or another model."""

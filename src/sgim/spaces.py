@@ -115,6 +115,7 @@ class Box:
         self._width = self.range.copy()
         while (beyond := self.low + self._width > self.high).any():
             self._width[beyond] = np.nextafter(self._width[beyond], 0.0)
+        self._lows, self._ranges = self.low.tolist(), self.range.tolist()
         self._shape = (d,)
         self.low.flags.writeable = self.high.flags.writeable = self.range.flags.writeable = False
 
@@ -186,6 +187,11 @@ class Box:
         """Scale to the unit box; also for arrays of shape ``(..., d)``."""
         scaled: FloatArray = (point - self.low) / self.range
         return scaled
+
+    def encoded(self, point: FloatArray) -> list[float]:
+        """As `encode`, in plain numbers: faster for one point of few coordinates."""
+        numbers = zip(point.tolist(), self._lows, self._ranges, strict=True)
+        return [(x - low) / width for x, low, width in numbers]
 
     def decode(self, vector: FloatArray) -> FloatArray:
         """The point that encodes to ``vector``, but for rounding; also for shape ``(..., d)``.

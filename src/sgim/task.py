@@ -119,6 +119,24 @@ class Task:
             checked[kind] = space.check(value, f"outcome {kind!r}")
         return checked
 
+    def check_outcomes(self, outcomes: Sequence[Outcome]) -> list[dict[str, Any]]:
+        """As `check_outcome` for several outcomes."""
+        places: dict[str, list[int]] = {}
+        for i, outcome in enumerate(outcomes):
+            if len(outcomes) == 1 or type(outcome) is not dict:
+                return [self.check_outcome(outcome) for outcome in outcomes]
+            for kind in outcome:
+                places.setdefault(kind, []).append(i)
+        checked: list[dict[str, Any]] = [dict.fromkeys(outcome) for outcome in outcomes]
+        for kind, members in places.items():
+            space = self.outcome_spaces.get(kind)
+            if not isinstance(space, Box):
+                return [self.check_outcome(outcome) for outcome in outcomes]
+            points = space.check_all([outcomes[i][kind] for i in members], f"outcome {kind!r}")
+            for i, point in zip(members, points, strict=True):
+                checked[i][kind] = point
+        return checked
+
     def check_goal(self, kind: str, point: Any) -> Goal:
         """Return the goal with its point checked by its space."""
         space = self.goal_spaces.get(kind)

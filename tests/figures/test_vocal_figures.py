@@ -14,6 +14,7 @@ from sgim.cli import main
 from sgim.environments import VocalTract, ambient_language
 from sgim.environments.vocal import articulations, spoken
 from sgim.environments.vocal.anatomy import ARTICULATORS
+from sgim.environments.vocal.articulations import VOWELS
 from sgim.experiments import experiment
 from sgim.experiments.vocal_history import VocalRun, read_vocal_run
 from sgim.figures import (
@@ -24,6 +25,7 @@ from sgim.figures import (
     vocal_densities,
     vocal_sounds,
     vocal_stages,
+    vocal_vowels,
     vocalisation,
 )
 from sgim.figures.style import new_figure
@@ -84,6 +86,13 @@ def test_a_vocalisation_is_drawn_with_its_sound_and_what_is_heard() -> None:
     assert drawn(figure)
 
 
+def test_english_vowels_lie_among_what_the_tract_can_say() -> None:
+    figure = vocal_vowels(np.random.default_rng(0))
+    (axes,) = figure.axes
+    assert {*VOWELS} <= {text.get_text() for text in axes.texts}
+    assert drawn(figure)
+
+
 def test_silence_is_drawn_too() -> None:
     rest = VocalTract().task.rest
     assert drawn(vocalisation(rest))
@@ -131,10 +140,6 @@ def test_plot_draws_what_only_vocal_runs_have(
 
 def test_classes_of_several_runs_are_drawn_together(runs: list[VocalRun]) -> None:
     several = of_worlds.drawings("vocal", runs, [runs[0].path])
-    assert [name.removeprefix("vocal-") for name, _ in several] == [
-        "classes",
-        "random-0-stages",
-        "random-0-densities",
-        "random-0-sounds",
-    ]
+    names = [name.removeprefix("vocal-") for name, _ in several]
+    assert names[:4] == ["classes", "random-0-stages", "random-0-densities", "random-0-sounds"]
     assert not of_worlds.drawings("other", [replace(runs[0], header={})], [])

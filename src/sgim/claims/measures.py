@@ -13,7 +13,7 @@ from sgim.errors import SgimError
 from sgim.runs.measured import MeasuredRun
 from sgim.runs.summary import QUARTERS, Openings, RecordedRun
 
-Unit = Literal["error", "share"]
+Unit = Literal["error", "share", "count"]
 
 ANY = "any"
 """Instead of a teacher's name: whichever."""
@@ -73,12 +73,12 @@ class Measure(Protocol):
 
     @property
     def unit(self) -> Unit:
-        """``error``, or ``share`` of episodes: it decides the margin and how effects are shown."""
+        """``error``, ``share`` or ``count``: it decides the margin and how effects are shown."""
         ...
 
     @property
     def of_choices(self) -> bool:
-        """Whether it needs the episodes of a run, and not only its evaluations."""
+        """Whether it needs more of a run than its evaluations, such as its episodes."""
         ...
 
     def of(self, run: MeasuredRun, movements: int) -> float:
@@ -250,3 +250,29 @@ class EvenShare:
                 f"{run.path} does not say which teachers {self.learner} has; run it again by name"
             )
         return self.count / (len(teachers) if self.of_teachers else 1 + 2 * len(teachers))
+
+
+@dataclass(frozen=True)
+class Constant:
+    """The same number for each run of a learner.
+
+    Attributes:
+        learner: Whose runs it stands beside.
+        value: The number.
+        unit: What it is.
+    """
+
+    learner: str
+    value: float
+    unit: Unit = "share"
+
+    of_choices: ClassVar[bool] = False
+
+    @property
+    def what(self) -> str:
+        """The number in writing."""
+        return f"{self.value:.3g}"
+
+    def of(self, run: MeasuredRun, movements: int) -> float:
+        """The number."""
+        return self.value

@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from typing import Any
 
 from sgim.claims.claim import Chapter, Claim, Verdicts, Word
-from sgim.claims.world import World
 
 
 @dataclass(frozen=True)
@@ -73,20 +72,17 @@ class Plausible:
 
 
 def count_worlds(several: Sequence[Verdicts]) -> list[Plausible]:
-    """Count, for each chapter and base configuration that has several worlds."""
+    """Count, for each chapter and base configuration with claims decided in several worlds."""
     groups: dict[tuple[str, str], list[Verdicts]] = {}
     for verdicts in several:
+        if all(verdict.word == "no runs" for verdict in verdicts.verdicts):
+            continue
         groups.setdefault((verdicts.chapter.name, verdicts.world.base), []).append(verdicts)
     return [_count(members) for members in groups.values() if len(members) > 1]
 
 
-def world_name(world: World) -> str:
-    """The experiment, and what differs from the base configuration."""
-    return f"{world.experiment} with {world.settings}" if world.settings else world.experiment
-
-
 def _count(members: Sequence[Verdicts]) -> Plausible:
-    names = [world_name(verdicts.world) for verdicts in members]
+    names = [verdicts.world.name for verdicts in members]
     counts = []
     for i, claim in enumerate(members[0].chapter.claims):
         words = {

@@ -8,12 +8,14 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from sgim.claims.answered import Answered
 from sgim.claims.claim import Chapter, Verdicts, decide
 from sgim.claims.plausible import Plausible, count_worlds
 from sgim.claims.world import (
     Chooser,
     ReadRun,
     base_of,
+    linked,
     main_experiment,
     read_runs,
     worlds_of,
@@ -38,11 +40,11 @@ class Report:
     seed: int
     notes: tuple[str, ...]
 
-    def as_json(self) -> dict[str, Any]:
-        """Everything, JSON-compatible."""
+    def as_json(self, *, details: bool) -> dict[str, Any]:
+        """Tables and counts, JSON-compatible; with details, also all tests and their numbers."""
         return {
             "seed": self.seed,
-            "tables": [verdicts.as_json() for verdicts in self.verdicts],
+            "tables": [verdicts.as_json(details=details) for verdicts in self.verdicts],
             "plausible": [plausible.as_json() for plausible in self.plausible],
             "notes": list(self.notes),
         }
@@ -54,6 +56,7 @@ def report(
     *,
     configuration: str | None = None,
     at: int | None = None,
+    by: str | None = None,
     seed: int = 0,
 ) -> Report:
     """Decide the claims of chapters by the runs of a sweep.
@@ -65,6 +68,8 @@ def report(
             settings; of all if None.
         at: The evaluation to compare at, in movements; the last that all runs of a world have if
             None.
+        by: Measure all runs again by this way of answering, and decide by that; by their own
+            evaluations if None. See `Answered`.
         seed: Of the bootstrap.
 
     Raises:
@@ -89,14 +94,21 @@ def report(
             f"{', '.join(sorted(known))}; make some with sgim sweep"
         )
     kept = _configured(about, configuration)
+    if by is not None:
+        kept = _answered(kept, by, {moment for one in chapters for moment in one.moments}, at)
     tables: list[Verdicts] = []
     for chapter in chapters:
         worlds = worlds_of([run for run in kept if main_experiment(run) == chapter.experiment], at)
-        tables += [decide(chapter, world, seed) for world in worlds]
+        several = [decide(chapter, w, seed) for w in linked(worlds, chapter.experiment)]
+        # Some worlds are there only to be compared with another.
+        decided = [verdicts for verdicts in several if any(v.findings for v in verdicts.verdicts)]
+        tables += decided or several
     notes = [
         f"no claims are about {name}: left out {count} run{'s' * (count > 1)}"
         for name, count in sorted(others.items())
     ]
+    if by is not None:
+        notes.append(f"errors are those of answering by {by}, measured again from the journals")
     return Report(tuple(tables), tuple(count_worlds(tables)), seed, tuple(notes))
 
 
@@ -110,3 +122,15 @@ def _configured(runs: Sequence[MeasuredRun], configuration: str | None) -> Seque
         known = {str(run.configuration) for run in runs}
         raise unknown("configuration of these runs", configuration, known)
     return kept
+
+
+def _answered(
+    runs: Sequence[MeasuredRun], way: str, moments: set[int], at: int | None
+) -> Sequence[MeasuredRun]:
+    """The runs measured again: at their last evaluation or ``at``, and at those claims name."""
+    measure = Answered(way).measure
+    return [
+        measure(run, {*moments, run.evaluations[-1].movements if at is None else at})
+        for run in runs
+        if run.evaluations
+    ]

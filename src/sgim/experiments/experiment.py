@@ -16,7 +16,7 @@ from sgim.runs.benchmark import Measures
 from sgim.runs.journal import Journal
 from sgim.runs.journal_reading import header_of
 from sgim.runs.run import Run
-from sgim.teachers import Teacher
+from sgim.teachers import RemoteTeacher, Teacher
 
 NO_TEACHER = "none"
 """Said instead of a teacher's name."""
@@ -49,7 +49,7 @@ class Experiment:
     environment: Callable[[], MinimalEnvironment]
     benchmark: Callable[[MinimalEnvironment], Measures]
     teachers: Mapping[str, str] = field(default_factory=dict)
-    make_teachers: Callable[[], Mapping[str, Teacher]] = dict
+    make_teachers: Callable[[], Mapping[str, Teacher | RemoteTeacher]] = dict
     unit: str = "share of the outcome space"
     movements: int = 8000
     alone: str = "sagg-riac"
@@ -68,7 +68,9 @@ class Experiment:
         """
         if learner is None:
             teacher = self.default_teacher if teacher is None else teacher
-            learner = self.taught if self.teachers and teacher != NO_TEACHER else self.alone
+            if teacher == NO_TEACHER:
+                return self.alone
+            learner = self.taught if self.teachers else self.alone
         return learner if teacher is None else f"{learner.partition(':')[0]}:{teacher}"
 
     def learner(
@@ -150,6 +152,11 @@ class Experiment:
         """
         environment = self.environment()
         made = self.make_teachers()
+        if unknown_ := [name for name in learner.teachers if name not in made]:
+            raise SgimError(
+                f"{self.name} has no teacher {', '.join(unknown_)}: this learner is taught by a "
+                f"person; go on with sgim teach {self.name} --journal PATH"
+            )
         label = self.label(learner)
         named = {} if label is None else {"learner": label}
         return Run(

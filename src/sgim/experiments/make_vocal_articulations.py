@@ -28,7 +28,9 @@ from sgim.streams import Streams
 Cost = Callable[[FloatArray], FloatArray]
 
 _CANDIDATES, _BEST, _ROUNDS = 1000, 50, 80
-_BOUND = 3.0
+BOUND = 3.0
+"""Commands lie between this and its opposite."""
+
 _EFFORT = 0.001  # weight of the mean square command: an articulation nearer to neutral is better
 _LEAST_OPENING = 0.04  # cm, of a vowel
 _PRESSED, _APART = -0.15, 0.15  # cm, of a closure at its place, and elsewhere
@@ -110,7 +112,7 @@ def search(cost: Cost, rng: np.random.Generator) -> tuple[FloatArray, float]:
     best, least = middle, np.inf
     for _ in range(_ROUNDS):
         drawn = rng.standard_normal((len(ARTICULATORS), _CANDIDATES))
-        candidates = np.clip(middle[:, None] + spread[:, None] * drawn, -_BOUND, _BOUND)
+        candidates = np.clip(middle[:, None] + spread[:, None] * drawn, -BOUND, BOUND)
         costs = cost(candidates)
         order = np.argsort(costs)[:_BEST]
         middle, spread = candidates[:, order].mean(axis=1), candidates[:, order].std(axis=1)

@@ -12,6 +12,8 @@ from sgim.figures.recognition import f_measures, recognised
 from sgim.figures.vocal_classes import vocal_classes, vocal_stages
 from sgim.figures.vocal_densities import vocal_densities
 from sgim.figures.vocal_sounds import vocal_sounds
+from sgim.figures.vocal_strategies import vocal_strategies
+from sgim.runs.measured import by_learner
 from sgim.runs.summary import RecordedRun
 
 if TYPE_CHECKING:
@@ -52,6 +54,18 @@ def _vocal(stem: str, runs: Sequence[RecordedRun], chosen: Collection[Path]) -> 
         for path in chosen
         for name, draw in single.items()
     ]
+    for name, members in by_learner(runs).items():
+        paths = [run.path for run in members]
+        title = f"{stem}-{name.replace(':', '-')}-by-strategy"
+        found.append((title, partial(_of_all, vocal_strategies, read, paths)))
     if len(runs) > 1:
         found.insert(0, (f"{stem}-classes", lambda: vocal_classes([*map(read, by_path)])))
     return found
+
+
+def _of_all(
+    draw: Callable[[Sequence[VocalRun]], Figure],
+    read: Callable[[Path], VocalRun],
+    paths: Sequence[Path],
+) -> Figure:
+    return draw([read(path) for path in paths])

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from sgim.spaces import FloatArray
 
-_REPAIR = 1e-12
+_REPAIR = 1e-9
 """Least eigenvalue, as a share of the largest, of a covariance that rounding has spoilt."""
 
 
@@ -180,7 +180,9 @@ def _factorised(covariances: FloatArray) -> tuple[FloatArray, FloatArray]:
         return covariances, factors
     except np.linalg.LinAlgError:
         values, vectors = np.linalg.eigh(covariances)
-    least = np.maximum(values[:, -1:] * _REPAIR, 1e-300)
+    # Eigenvalues below 0 show how large the rounding is.
+    least = np.maximum(np.abs(values).max(axis=1, keepdims=True) * _REPAIR, -2 * values[:, :1])
+    least = np.maximum(least, _REPAIR**2)
     while True:
         mended = (vectors * np.maximum(values, least)[:, None, :]) @ np.swapaxes(vectors, 1, 2)
         mended = (mended + np.swapaxes(mended, 1, 2)) / 2

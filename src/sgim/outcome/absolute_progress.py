@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -12,7 +12,6 @@ from sgim.memory.neighbours import NearestNeighbours
 from sgim.mixtures import fit_by_criterion
 from sgim.outcome.interest import EpisodeReport
 from sgim.outcome.mixture_goals import MixtureGoals, Source
-from sgim.records import Goal
 from sgim.spaces import Space
 from sgim.streams import Streams
 
@@ -53,11 +52,10 @@ class AbsoluteProgress(MixtureGoals):
         every: int = 250,
         random_share: float = 0.2,
     ) -> None:
-        super().__init__(goal_spaces, modes, context_space)
+        super().__init__(goal_spaces, modes, context_space, random_share)
         self.streams = streams
         self.most = most
         self.every = every
-        self.random_share = random_share
         self.episodes = 0
         pairs = [(kind, mode) for kind in self.spaces for mode in self.modes]
         self._earlier = {
@@ -102,14 +100,6 @@ class AbsoluteProgress(MixtureGoals):
             goals.reweighted(weights if total > 0 else mixture.weights), self.contexts
         )
         self.kind_weights[kind] = max(float(mixture.weights @ weights), 1e-9)
-
-    def choose(
-        self, rng: np.random.Generator, modes: Sequence[str], context: Any
-    ) -> tuple[Goal, str]:
-        """Draw a goal and one of ``modes`` by progress, or any."""
-        if rng.random() < self.random_share:
-            return self.uniform(rng, modes)
-        return self.drawn(rng, modes, context) or self.uniform(rng, modes)
 
 
 _Episode = tuple[Any, Any, int, float]

@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Any, Protocol
 
 import numpy as np
 
+from sgim.frozen import frozen
 from sgim.records import Demonstration, Goal
 from sgim.spaces import Choices
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@frozen
 class EpisodeReport:
     """What an episode came to.
 
@@ -52,6 +52,21 @@ class InterestMap(Protocol):
     ) -> tuple[Goal, str]:
         """Choose a goal for the present context, and one of ``modes`` to learn it by."""
         ...
+
+
+def choose_goals(
+    interest: InterestMap,
+    rngs: Sequence[np.random.Generator],
+    modes: Sequence[str],
+    contexts: Sequence[Any],
+) -> list[tuple[Goal, str]]:
+    """`InterestMap.choose` for several episodes: by the map's ``choose_all`` if it has one."""
+    together = getattr(interest, "choose_all", None)
+    if together is None:
+        pairs = zip(rngs, contexts, strict=True)
+        return [interest.choose(rng, modes, context) for rng, context in pairs]
+    chosen: list[tuple[Goal, str]] = together(rngs, modes, contexts)
+    return chosen
 
 
 class UniformGoals:

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from bisect import bisect_right
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from sgim.mixtures import Conditional, GaussianMixture
+from sgim.mixtures.conditional import rowwise
 from sgim.outcome.interest import EpisodeReport
 from sgim.records import Goal
 from sgim.spaces import Box, FloatArray, Space
@@ -25,6 +25,7 @@ class MixtureGoals:
         goal_spaces: Kind → goal space; each must be a `Box`.
         modes: Mode name → cost κ, by which interest is divided.
         context_space: The task's context space if there is one; it must be a `Box`.
+        uniform_share: Probability that goal and mode are drawn from all alike instead.
 
     Raises:
         TypeError: If a space is not a `Box`.
@@ -35,6 +36,7 @@ class MixtureGoals:
         goal_spaces: Mapping[str, Space],
         modes: Mapping[str, float],
         context_space: Space | None = None,
+        uniform_share: float = 0.0,
     ) -> None:
         self.spaces: dict[str, Box] = {}
         for kind, space in goal_spaces.items():
@@ -47,11 +49,11 @@ class MixtureGoals:
         self.contexts = 0 if context_space is None else context_space.dimension
         self.modes = {name: i for i, name in enumerate(modes)}
         self.costs = np.array(list(modes.values()), dtype=np.float64)
-        self._names = tuple(modes)
+        self.uniform_share = uniform_share
         self._ends = {kind: self.contexts + space.dimension for kind, space in self.spaces.items()}
         corners = np.eye(len(self.modes))[:, 1:]
         self._corners: FloatArray = corners
-        self.sources: dict[str, Source] = {}
+        self.sources: dict[str, Source] = {}  # none for a kind that nothing is known of
         self.kind_weights: dict[str, float] = {}
 
     def width(self, kind: str) -> int:
@@ -80,20 +82,54 @@ class MixtureGoals:
         discounts: FloatArray = (shares / self.costs).sum(axis=1) / shares.sum(axis=1)
         return discounts
 
-    def drawn(
+    def choose(
         self, rng: np.random.Generator, modes: Sequence[str], context: Any
-    ) -> tuple[Goal, str] | None:
-        """Draw a kind by its weight, then goal and mode; None where there is no mixture yet."""
-        if not self.sources:
-            return None
-        kind = self._kind(rng)
-        source = self.sources[kind]
-        given = None if self.context_space is None else self.context_space.encode(context)
-        vector = source.draw(rng, given)
-        space = self.spaces[kind]
-        d = space.dimension
-        point = np.minimum(np.maximum(vector[:d], 0.0), 1.0)
-        return Goal(kind, space.decode(point)), self._nearest(vector[d:], modes, rng)
+    ) -> tuple[Goal, str]:
+        """Draw a goal and one of ``modes`` by interest."""
+        return self.choose_all([rng], modes, [context])[0]
+
+    def choose_all(
+        self, rngs: Sequence[np.random.Generator], modes: Sequence[str], contexts: Sequence[Any]
+    ) -> list[tuple[Goal, str]]:
+        """As `choose` for several episodes, each with its own generator and context."""
+        chosen: list[tuple[Goal, str]] = [_NOTHING] * len(rngs)
+        drawn: dict[str, list[_Drawn]] = {}
+        for i, rng in enumerate(rngs):
+            if self.uniform_share and rng.random() < self.uniform_share:
+                chosen[i] = self.uniform(rng, modes)
+            elif not self.sources:
+                chosen[i] = self.first(rng, modes)
+            else:
+                kind = self._kind(rng)
+                pick, normals = rng.random(), rng.standard_normal(self.sources[kind].width)
+                drawn.setdefault(kind, []).append(
+                    _Drawn(i, pick, normals, *self.amendments(rng, kind, modes))
+                )
+        for kind, members in drawn.items():
+            given = None
+            if self.context_space is not None:
+                given = self.context_space.encode(np.array([contexts[m.number] for m in members]))
+            vectors = self.sources[kind].draw(
+                np.array([m.pick for m in members]), np.array([m.normals for m in members]), given
+            )
+            space = self.spaces[kind]
+            d = space.dimension
+            points = space.decode(np.clip(vectors[:, :d], 0.0, 1.0))
+            nearest = self._nearest(vectors[:, d:], modes)
+            for member, point, mode in zip(members, points, nearest, strict=True):
+                goal = Goal(kind, point) if member.goal is None else member.goal
+                chosen[member.number] = goal, mode if member.mode is None else member.mode
+        return chosen
+
+    def first(self, rng: np.random.Generator, modes: Sequence[str]) -> tuple[Goal, str]:
+        """A goal and a mode while there is no mixture yet."""
+        return self.uniform(rng, modes)
+
+    def amendments(
+        self, rng: np.random.Generator, kind: str, modes: Sequence[str]
+    ) -> tuple[Goal | None, str | None]:
+        """A goal and a mode to take instead of those that are drawn, if there are."""
+        return None, None
 
     def _kind(self, rng: np.random.Generator) -> str:
         kinds = list(self.sources)
@@ -107,16 +143,13 @@ class MixtureGoals:
                 return kind
         return kinds[-1]
 
-    def _nearest(
-        self, coordinates: FloatArray, modes: Sequence[str], rng: np.random.Generator
-    ) -> str:
+    def _nearest(self, coordinates: FloatArray, modes: Sequence[str]) -> list[str]:
+        """The mode offered that each row of mode coordinates is nearest to."""
         if len(modes) == 1:
-            return modes[0]
-        if len(coordinates) == 0:  # a mixture without modes
-            return modes[int(rng.integers(len(modes)))]
-        offered = [self.modes[mode] for mode in modes]
-        distances = ((self._corners[offered] - coordinates) ** 2).sum(axis=1)
-        return modes[int(distances.argmin())]
+            return [modes[0]] * len(coordinates)
+        corners = self._corners[[self.modes[mode] for mode in modes]]
+        distances = ((corners - coordinates[:, None, :]) ** 2).sum(axis=-1)
+        return [modes[place] for place in distances.argmin(axis=1).tolist()]
 
     def uniform(self, rng: np.random.Generator, modes: Sequence[str]) -> tuple[Goal, str]:
         """Any kind, goal and mode, all alike."""
@@ -126,29 +159,44 @@ class MixtureGoals:
 
 
 class Source:
-    """Draws from a mixture quickly, one at a time, given the first coordinates if there are any.
+    """Draws from a mixture, given the first coordinates if there are any.
 
     Args:
-        mixture: The mixture; weights are as they are.
+        mixture: The mixture.
         contexts: How many coordinates are given.
+
+    Attributes:
+        width: How many coordinates are drawn.
     """
 
     def __init__(self, mixture: GaussianMixture, contexts: int = 0) -> None:
-        self.mixture = mixture
+        self.width = mixture.dimension - contexts
         self._given = Conditional(mixture, contexts) if contexts else None
-        self._cumulated = mixture.weights.cumsum().tolist()
-        self._means: list[FloatArray] = list(mixture.means)
-        self._factors: list[FloatArray] = list(mixture.factors)
+        self._mixture = mixture
+        self._cumulated = mixture.weights.cumsum()
 
-    def draw(self, rng: np.random.Generator, context: FloatArray | None) -> FloatArray:
-        """Draw the other coordinates."""
-        pick = rng.random()
-        if self._given is not None and context is not None:
-            normals = rng.standard_normal((1, self._given.means.shape[1]))
-            vector: FloatArray = self._given.draw(context[None], np.array([pick]), normals)[0]
-            return vector
-        place = min(bisect_right(self._cumulated, pick * self._cumulated[-1]), len(self._means) - 1)
-        mean = self._means[place]
-        offset: FloatArray = self._factors[place].dot(rng.standard_normal(mean.shape))
-        offset += mean
-        return offset
+    def draw(
+        self, picks: FloatArray, normals: FloatArray, contexts: FloatArray | None
+    ) -> FloatArray:
+        """Draw the other coordinates; see `sgim.mixtures.Conditional.draw`."""
+        if self._given is not None and contexts is not None:
+            return self._given.draw(contexts, picks, normals)
+        wanted = picks * self._cumulated[-1]
+        chosen = self._cumulated.searchsorted(wanted, "right")
+        chosen = np.minimum(chosen, len(self._cumulated) - 1)
+        vectors = rowwise(self._mixture.factors[chosen], normals)
+        vectors += self._mixture.means[chosen]
+        return vectors
+
+
+class _Drawn(NamedTuple):
+    """Random numbers of one episode, and what replaces the goal and the mode they give."""
+
+    number: int
+    pick: float
+    normals: FloatArray
+    goal: Goal | None
+    mode: str | None
+
+
+_NOTHING = Goal("", None), ""

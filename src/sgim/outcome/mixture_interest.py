@@ -71,7 +71,7 @@ class MixtureInterest(MixtureGoals):
         recent_noise: float = 0.05,
         random_modes: float = 0.0,
     ) -> None:
-        super().__init__(goal_spaces, modes, context_space)
+        super().__init__(goal_spaces, modes, context_space, uniform_share)
         self.streams = streams
         self.produced = produced
         self.recent = recent
@@ -79,7 +79,6 @@ class MixtureInterest(MixtureGoals):
         self.window = window
         self.every = every
         self.weighting = weighting
-        self.uniform_share = uniform_share
         self.recent_share = recent_share
         self.recent_noise = recent_noise
         self.random_modes = random_modes
@@ -136,25 +135,22 @@ class MixtureInterest(MixtureGoals):
         progress: FloatArray = np.maximum(shared, 0.0)
         return progress
 
-    def choose(
-        self, rng: np.random.Generator, modes: Sequence[str], context: Any
-    ) -> tuple[Goal, str]:
-        """Draw a goal and one of ``modes`` by interest."""
-        if self.uniform_share and rng.random() < self.uniform_share:
-            return self.uniform(rng, modes)
-        chosen = self.drawn(rng, modes, context) or self._first(rng, modes)
+    def amendments(
+        self, rng: np.random.Generator, kind: str, modes: Sequence[str]
+    ) -> tuple[Goal | None, str | None]:
+        """A recent outcome with noise for a goal, and any mode, as often as was said."""
+        goal = mode = None
         if self.random_modes and len(modes) > 1 and rng.random() < self.random_modes:
-            chosen = chosen[0], modes[int(rng.integers(len(modes)))]
+            mode = modes[int(rng.integers(len(modes)))]
         if self.recent_share and self.recent is not None and rng.random() < self.recent_share:
-            outcomes = self.recent(chosen[0].kind)
+            outcomes = self.recent(kind)
             if len(outcomes):
                 noise = self.recent_noise * rng.standard_normal(outcomes.shape[1])
                 point = outcomes[int(rng.integers(len(outcomes)))] + noise
-                space = self.spaces[chosen[0].kind]
-                return Goal(chosen[0].kind, space.decode(np.clip(point, 0.0, 1.0))), chosen[1]
-        return chosen
+                goal = Goal(kind, self.spaces[kind].decode(np.clip(point, 0.0, 1.0)))
+        return goal, mode
 
-    def _first(self, rng: np.random.Generator, modes: Sequence[str]) -> tuple[Goal, str]:
+    def first(self, rng: np.random.Generator, modes: Sequence[str]) -> tuple[Goal, str]:
         """A goal before the first fit: what was produced, or any if that is not known."""
         anything = self.uniform(rng, modes)
         known = self.produced and {k: m for k in self.spaces if (m := self.produced(k))}

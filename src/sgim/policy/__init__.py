@@ -1,6 +1,8 @@
 """The lower level: which policy to try for a goal, and what the learner knows."""
 
+from sgim.policy.answering import Answer, Answering, KernelMean, Nearest, Reliable
 from sgim.policy.explorer import Episode, Explorer
+from sgim.policy.local_model import LocalModel
 from sgim.policy.local_search import LocalSearch
 from sgim.policy.mixture_model import Learning, MixtureModel
 from sgim.policy.mixture_search import AroundRest, MixtureSearch
@@ -13,8 +15,12 @@ from sgim.policy.population import (
     PopulationSearch,
 )
 from sgim.policy.simple import Mimicry, NoisyNearest, PolicyOfLabel, RandomPolicies
+from sgim.policy.ways import ANSWERING, answering_of
 
 __all__ = [
+    "ANSWERING",
+    "Answer",
+    "Answering",
     "AroundRest",
     "CompetenceModel",
     "CovarianceAdaptation",
@@ -22,11 +28,14 @@ __all__ = [
     "Explorer",
     "InverseModel",
     "Learning",
+    "KernelMean",
+    "LocalModel",
     "LocalSearch",
     "MakeDistribution",
     "Mimicry",
     "MixtureModel",
     "MixtureSearch",
+    "Nearest",
     "NearestModel",
     "NelderMeadSearch",
     "NoAnswerError",
@@ -35,4 +44,6 @@ __all__ = [
     "PathIntegral",
     "PopulationSearch",
     "RandomPolicies",
+    "Reliable",
+    "answering_of",
 ]

@@ -104,6 +104,20 @@ class MixtureModel:
         """Note a trial; at every so manieth, learn from those since the last time."""
         if self.nearest is not None:
             self.nearest.update(trial)
+        self._note(trial)
+
+    def learn_all(
+        self, trials: Sequence[Trial], goals: Sequence[Goal | None], contexts: Sequence[Any]
+    ) -> list[float | None]:
+        """Learn from several trials; for each, what `shown_by` says of it and its goal."""
+        if self.nearest is not None:
+            self.nearest.learn_all(trials, [None] * len(trials), contexts)
+        for trial in trials:
+            self._note(trial)
+        pairs = zip(trials, goals, contexts, strict=True)
+        return [None if g is None else self.shown_by(trial, g, c) for trial, g, c in pairs]
+
+    def _note(self, trial: Trial) -> None:
         for kind, point in trial.outcome.items():
             self.kinds[kind].waiting.append((point, trial.context, trial.policy))
         self.trials += 1
@@ -165,6 +179,10 @@ class MixtureModel:
     def competence(self, goal: Goal, context: Any) -> float:
         """−1 for every goal: only trials show more."""
         return -1.0
+
+    def competences(self, goals: Sequence[Goal], contexts: Sequence[Any]) -> list[float]:
+        """As `competence` for several goals."""
+        return [-1.0] * len(goals)
 
     def shown_by(self, trial: Trial, goal: Goal, context: Any) -> float:
         """e^{−d} − 1 for the distance d from the trial's outcome to the goal; −1 without one."""

@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from sgim.policy.answering import localities
 from sgim.policy.explorer import Episode
 from sgim.policy.model import NearestModel
 from sgim.records import Trial
@@ -61,6 +62,7 @@ def nelder_mead(points: Sequence[FloatArray], values: Sequence[float | None]) ->
 class _State:
     search: Search
     point: FloatArray | None = None
+    cost: float | None = None  # of the point, once that is known
 
 
 class NelderMeadSearch:
@@ -118,17 +120,18 @@ class NelderMeadSearch:
             state: _State = episode.state
             if state.point is None:
                 state.point = next(state.search)
+            elif state.cost is not None:
+                state.point, state.cost = state.search.send(state.cost), None
             policies.append(self.space.decode(np.clip(state.point, 0.0, 1.0)))
         return policies
 
     def learn(self, episode: Episode, trial: Trial, competence: float | None) -> None:
-        """Send the trial's cost to the search."""
-        cost = 1.0 if competence is None else -competence
-        episode.state.point = episode.state.search.send(cost)
+        """Keep the trial's cost for the search."""
+        episode.state.cost = 1.0 if competence is None else -competence
 
     def refuse(self, episode: Episode) -> None:
         """A refused policy costs as much as any can."""
-        episode.state.point = episode.state.search.send(1.0)
+        episode.state.cost = 1.0
 
     def finished(self, episode: Episode) -> bool:
         """Whether the goal is reached within its task's tolerance."""
@@ -161,15 +164,12 @@ class NelderMeadSearch:
         key = self.model.memory.key(goal.kind, goal.point, episode.context)
         distances, rows = memory.nearest(key, self.near_outcomes)
         near = max(1, int((distances < self.outcome_radius).sum()))
-        centres = memory.encoded_policies(rows[:near])
-        best_quality, locality = np.inf, rows[:1]
-        for distance, centre in zip(distances[:near], centres, strict=True):
-            apart, around = memory.nearest_policies(centre, n + 1)
-            around = around[apart < self.policy_radius]
-            scatter = float(memory.keys.rows[around].var(axis=0).sum())
-            quality = float(distance) + self.variance_weight * scatter
-            if quality < best_quality:
-                best_quality, locality = quality, around
+        _, locality = min(
+            localities(
+                memory, distances[:near], rows[:near], self.policy_radius, self.variance_weight
+            ),
+            key=lambda found: found[0],
+        )
         policies = memory.encoded_policies(locality)
         offsets = memory.keys.rows[locality] - key
         costs = np.sqrt((offsets**2).sum(axis=1))

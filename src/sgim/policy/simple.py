@@ -10,7 +10,7 @@ import numpy as np
 from sgim.errors import TeacherError
 from sgim.policy.explorer import Episode
 from sgim.policy.model import NearestModel
-from sgim.records import Trial
+from sgim.records import Goal, Trial
 from sgim.spaces import Box, FloatArray, Space
 
 
@@ -131,14 +131,25 @@ class NoisyNearest(Stateless):
 
     def propose(self, episodes: Sequence[Episode]) -> list[Any]:
         """A variation of the nearest policy for each; a random policy while there is none."""
-        return [self._vary(e) for e in episodes]
-
-    def _vary(self, episode: Episode) -> Any:
-        goal, space = episode.goal, self.space
         memory = self.model.memory
-        if goal is None or len(memory) < self.bootstrap or not len(memory.kinds[goal.kind]):
-            return space.sample(episode.rng)
-        policy = self.model.best_policy(goal, episode.context)
+        aimed: dict[int, Goal] = {}
+        if len(memory) >= self.bootstrap:
+            for i, episode in enumerate(episodes):
+                if episode.goal is not None and len(memory.kinds[episode.goal.kind]):
+                    aimed[i] = episode.goal
+        policies: list[Any] = [None] * len(episodes)
+        if aimed:
+            goals = list(aimed.values())
+            found = self.model.nearest_all(goals, [episodes[i].context for i in aimed])
+            for i, goal, (_, rows) in zip(aimed, goals, found, strict=True):
+                policies[i] = memory.policies[int(memory.kinds[goal.kind].trials.rows[rows[0]])]
+        return [
+            self._vary(episode, policies[i]) if i in aimed else self.space.sample(episode.rng)
+            for i, episode in enumerate(episodes)
+        ]
+
+    def _vary(self, episode: Episode, policy: Any) -> Any:
+        space = self.space
         if not isinstance(space, Box):
             return policy if episode.rng.random() > self.noise else space.sample(episode.rng)
         return space.clip(

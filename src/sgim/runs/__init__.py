@@ -3,7 +3,7 @@
 from sgim.runs.benchmark import Benchmark
 from sgim.runs.continuation import keep_journal
 from sgim.runs.journal import Journal
-from sgim.runs.repertoire import open_repertoire
+from sgim.runs.repertoire import evaluate, open_repertoire
 from sgim.runs.run import Interrupted, Run, RunError
 
 __all__ = [
@@ -12,6 +12,7 @@ __all__ = [
     "Journal",
     "Run",
     "RunError",
+    "evaluate",
     "keep_journal",
     "open_repertoire",
 ]

@@ -8,6 +8,7 @@ from typing import Any, Literal, Protocol
 
 import numpy as np
 
+from sgim.answers import Answers
 from sgim.environments.base import Generators, MinimalEnvironment, draw_context, execute_all
 from sgim.errors import SgimError
 from sgim.learner import Learner
@@ -73,7 +74,7 @@ class Benchmark:
         counts = {kind: len(points) for kind, points in self.goals.items()}
         return {"goals": counts, "distance": self.distance, "digest": digest.hexdigest()}
 
-    def evaluate(self, learner: Learner, streams: Streams, index: int) -> dict[str, float]:
+    def evaluate(self, learner: Answers, streams: Streams, index: int) -> dict[str, float]:
         """Mean error per goal kind, and ``total``, the mean of the kinds.
 
         For kinds with an origin there is ``KIND relative`` too, which does not count in the total.
@@ -105,11 +106,11 @@ class Benchmark:
         ways = np.maximum(self._ways[kind], 1e-12)
         return np.minimum(_or_1(distances / ways), 1.0)
 
-    def distances(self, learner: Learner, kind: str, streams: Streams, index: int) -> FloatArray:
+    def distances(self, learner: Answers, kind: str, streams: Streams, index: int) -> FloatArray:
         """The error of each goal of one kind, in the order of the goals."""
         return _or_1(self._measured(learner, kind, streams, index))
 
-    def _measured(self, learner: Learner, kind: str, streams: Streams, index: int) -> FloatArray:
+    def _measured(self, learner: Answers, kind: str, streams: Streams, index: int) -> FloatArray:
         """The distance to each goal of one kind; NaN where nothing of the kind was produced."""
         points, environment = self.goals[kind], self.environment
         rng = streams(f"evaluation/{kind}", index)

@@ -12,10 +12,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sgim.errors import JournalError
+from sgim.runs.content import goals_of, outcomes_of, shown_in
 from sgim.runs.journal import Journal
 from sgim.runs.measured import MeasuredRun, measures
 from sgim.runs.rows import DECLINED
-from sgim.spaces import Choices
+from sgim.spaces import Choices, FloatArray
 from sgim.task import Task
 
 QUARTERS = 4
@@ -116,6 +117,19 @@ class RecordedRun(MeasuredRun):
         """Shares of modes and kinds in each quarter of the movements it was last asked for."""
         end = self.movements if self.target is None else self.target
         return self.openings.shares(np.linspace(0.0, max(end, 1), QUARTERS + 1))
+
+    def produced(self, kind: str) -> FloatArray:
+        """The outcomes of a kind that is a box, in order, shape ``(n, d)``."""
+        _, points = outcomes_of(self.path, self.task)[kind]
+        return np.array(points, dtype=np.float64).reshape(len(points), -1 if points else 0)
+
+    def aimed_at(self, kind: str) -> tuple[NDArray[np.int64], FloatArray]:
+        """Its goals of a kind that is a box; see `sgim.runs.content.goals_of`."""
+        return goals_of(self.path, self.task, kind)
+
+    def shown(self) -> FloatArray:
+        """What was demonstrated, as policies that are vectors; see `sgim.runs.content.shown_in`."""
+        return shown_in(self.path, self.task)
 
     def summary(self) -> dict[str, Any]:
         """As JSON: what was run, how far it is, its errors and its choices.

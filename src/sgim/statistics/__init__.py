@@ -7,6 +7,7 @@ from sgim.statistics.bootstrap import (
     bootstrap_interval,
     contrast_estimates,
     interquartile_estimate,
+    profile_estimate,
 )
 from sgim.statistics.change_points import stages
 from sgim.statistics.effects import probability_lower, rank_biserial
@@ -16,6 +17,7 @@ from sgim.statistics.significance import (
     least_pairs,
     less_margin,
     mann_whitney_p,
+    mean_vector_p,
     not_higher_p,
     signed_rank_p,
 )
@@ -33,9 +35,11 @@ __all__ = [
     "least_pairs",
     "less_margin",
     "mann_whitney_p",
+    "mean_vector_p",
     "not_higher_p",
     "performance_profile",
     "probability_lower",
+    "profile_estimate",
     "rank_biserial",
     "signed_rank_p",
     "stages",

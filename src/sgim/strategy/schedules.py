@@ -9,7 +9,7 @@ import numpy as np
 from sgim.outcome.interest import EpisodeReport, InterestMap
 from sgim.strategy.modes import Mode
 from sgim.strategy.situation import Choice, Situation
-from sgim.strategy.strategy import JointChoice, by_name
+from sgim.strategy.strategy import JointChoice, by_name, choose_all
 
 
 class RoundRobin:
@@ -100,9 +100,17 @@ class RestFirst:
 
     def choose(self, now: Situation, rng: np.random.Generator) -> Choice:
         """The mode at rest at first, then the other strategy's choice."""
-        if now.episode < self.episodes:
-            return Choice(self.resting, None)
-        return self.then.choose(now, rng)
+        return self.choose_all([now], [rng])[0]
+
+    def choose_all(
+        self, now: Sequence[Situation], rngs: Sequence[np.random.Generator]
+    ) -> list[Choice]:
+        """As `choose` for several episodes, oldest first."""
+        resting = sum(one.episode < self.episodes for one in now)
+        choices = [Choice(self.resting, None)] * resting
+        if resting < len(now):
+            choices += choose_all(self.then, now[resting:], rngs[resting:])
+        return choices
 
     def update(self, report: EpisodeReport) -> None:
         """Pass the report to the other strategy."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 from tyro.conf import Positional, arg
 
@@ -22,6 +22,10 @@ def command(
     context: Annotated[
         str | None, arg(metavar="NUMBERS", help_behavior_hint="(default: none)")
     ] = None,
+    by: Annotated[
+        Literal["nearest", "reliable", "kernel", "local"] | None,
+        arg(help_behavior_hint="(default: as the run's configuration says)"),
+    ] = None,
     as_json: Annotated[bool, arg(name="json")] = False,
 ) -> None:
     """Ask a run what it has learned: the policy for a goal, and what that should produce.
@@ -34,13 +38,16 @@ def command(
         path: The journal of the run, which may be going on.
         goal: A kind of outcome, and the point to reach: numbers with commas between, or a label.
         context: The context it is for, in worlds that have contexts.
+        by: The way of answering: the nearest outcome remembered, the most reliable, the best by a
+            kernel mean over like policies, or by a local model of them.
         as_json: Print JSON: kind, goal, policy, expected, spread, cost, reachable, and the names
             and units of coordinates.
     """
     learner = open_repertoire(path)
     task = learner.task
     kind, point = _parsed_goal(goal, task)
-    solution = learner.solve(kind, point, _parsed_context(context, task))
+    repertoire = learner if by is None else learner.by(by)
+    solution = repertoire.solve(kind, point, _parsed_context(context, task))
     checked = task.check_goal(kind, point).point
     if as_json:
         facts = _as_json(task, kind, checked, solution)

@@ -11,7 +11,16 @@ from typing import TYPE_CHECKING, Annotated, Literal
 from tyro.conf import Positional, arg
 
 from sgim.errors import SgimError
-from sgim.figures import choices, choices_by_kind, error_curves, explored, of_worlds
+from sgim.figures import (
+    choices,
+    choices_by_kind,
+    error_curves,
+    explored,
+    of_worlds,
+    performance_profiles,
+    places,
+    progress,
+)
 from sgim.figures.curves import Band
 from sgim.figures.style import NothingToDrawError
 from sgim.runs.costs import Prices
@@ -34,8 +43,12 @@ def command(
 
     NAME-errors     errors over movements, a line with a band for each learner
     NAME-costs      the same over the time of robot and persons, if anybody was asked
+    NAME-profiles   share of a learner's runs whose last error is at most so much
     NAME-choices    modes and kinds of goal chosen over time, all seeds together
     NAME-strategies modes chosen for each kind of goal, by learners that choose both
+    NAME-progress   modes chosen over time, and what each gained per movement
+    NAME-outcomes   how often each learner's movements ended where
+    NAME-goals      how often each learner aimed where
     RUN-explored    what has been explored, for one run of each learner, or for --each
 
     Where objects are recognised, also:
@@ -80,8 +93,12 @@ def command(
         drawings: list[tuple[str, Callable[[], Figure]]] = [
             (f"{stem}-errors", partial(error_curves, runs, band=band)),
             (f"{stem}-costs", partial(error_curves, runs, band=band, prices=prices)),
+            *([(f"{stem}-profiles", partial(performance_profiles, runs))] if len(runs) > 1 else []),
             (f"{stem}-choices", partial(choices, runs)),
             (f"{stem}-strategies", partial(choices_by_kind, runs)),
+            (f"{stem}-progress", partial(progress, runs)),
+            (f"{stem}-outcomes", partial(places, runs, "outcomes")),
+            (f"{stem}-goals", partial(places, runs, "goals")),
             *((f"{path.stem}-explored", partial(explored, path)) for path in chosen),
             *of_worlds.drawings(stem, runs, chosen),
         ]

@@ -38,7 +38,7 @@ class Simulator:
 
     def __init__(self, variant: Variant) -> None:
         self._mujoco = mujoco("the fishing rod is simulated")
-        self._model, self._start = _prepared(variant)
+        self._model, self._start = prepared(variant)
         self._data = self._mujoco.MjData(self._model)
         self._float = int(self._model.body("float").id)
         self.step = variant.step
@@ -153,8 +153,8 @@ class Simulator:
 
 
 @cache
-def _prepared(variant: Variant) -> tuple[Any, FloatArray]:
-    """The model, and the joint angles at home with the line hanging at rest."""
+def prepared(variant: Variant) -> tuple[Any, FloatArray]:
+    """The MuJoCo model, and its joint angles at home with the line hanging at rest."""
     engine = mujoco("the fishing rod is simulated")
     settling = engine.MjModel.from_xml_string(rod_model(variant, settling=True))
     data = engine.MjData(settling)

@@ -21,8 +21,8 @@ FRAMES = 15
 SOUND = ("I(1)", "I(2)", "F1(1)", "F1(2)", "F2(1)", "F2(2)")
 """Coordinates of a sound: intensity, first and second formant, in the first and second window."""
 
-MIDDLES, RANGES = (500.0, 1500.0), (500.0, 1000.0)
-"""Of the formants, in Hz: scaled, they lie between about -1 and 1."""
+MIDDLES = (500.0, 1500.0)
+"""Of the formants, in Hz: (F - middle) / middle lies between about -1 and 1."""
 
 
 def frame_times() -> FloatArray:
@@ -41,8 +41,7 @@ def perceived(heard: FloatArray, formants: FloatArray) -> FloatArray:
     Returns:
         Coordinates as in `SOUND`, shape ``(n, 6)``.
     """
-    middles, ranges = (np.array(values)[:, None, None] for values in (MIDDLES, RANGES))
-    scaled = np.where(heard > 0, (formants - middles) / ranges, 0.0)
+    scaled = np.where(heard > 0, formants / np.array(MIDDLES)[:, None, None] - 1.0, 0.0)
     values = np.concatenate([heard[None], scaled])
     windows = values.reshape(len(SOUND), FRAMES, -1)
     total = np.zeros(windows[:, 0].shape)
@@ -61,5 +60,5 @@ def in_hertz(sound: FloatArray) -> FloatArray:
         In Hz, formant by window, shape ``(..., 2, 2)``.
     """
     scaled = sound[..., 2:].reshape(*sound.shape[:-1], 2, 2)
-    hertz: FloatArray = scaled * np.array(RANGES)[:, None] + np.array(MIDDLES)[:, None]
+    hertz: FloatArray = (scaled + 1.0) * np.array(MIDDLES)[:, None]
     return hertz
