@@ -3,9 +3,9 @@
 from pathlib import Path
 
 import pytest
+from tests.web.conftest import taught_run
 
 from sgim.cli import main
-from tests.web.conftest import taught_run
 
 
 def said(capsys: pytest.CaptureFixture[str], *arguments: str) -> str:
