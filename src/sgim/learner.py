@@ -263,7 +263,8 @@ class Learner(Transitions, Answers):
         for plan, running, trial, remembered, time in zip(
             plans, some, trials, known, taken, strict=True
         ):
-            self._emit(Told(plan.id, trial.outcome, time))
+            if self.record is not None:
+                self._emit(Told(plan.id, trial.outcome, time))
             try:
                 reports.append(self.learn_trial(plan, running, trial, remembered))
             except BaseException as error:  # those behind it have happened, too

@@ -11,7 +11,6 @@ import time
 from dataclasses import fields
 from inspect import signature
 from pathlib import Path
-from typing import Any
 
 import pytest
 
@@ -21,11 +20,11 @@ from sgim.configurations import CONFIGURATIONS, Configuration
 from sgim.environments import AirHockey
 from sgim.errors import JournalError
 from sgim.events import Answered, Ended, Opened, Told
-from sgim.experiments.sweep_plan import plan, read_sweep_file
 from sgim.mixture_settings import MixtureSettings
 from sgim.outcome.expected_gain import ExpectedGain
 from sgim.outcome.region_tree import RegionTree
-from sgim.policy import KernelMean, LocalModel, Reliable
+from sgim.policy.answering import KernelMean, Reliable
+from sgim.policy.local_model import LocalModel
 from sgim.policy.local_search import LocalSearch
 from sgim.policy.model import NearestModel
 from sgim.policy.nelder_mead import NelderMeadSearch
@@ -235,25 +234,6 @@ def test_the_lines_of_the_page_on_comparing_compare(tmp_path: Path) -> None:
     output("-m", "sgim.cli", *sweep.split(), "--out", "runs/short", cwd=tmp_path)
     (block,) = python_blocks("docs/comparing.md")
     assert output("-c", block, cwd=tmp_path).startswith("sgim-acts ")
-
-
-def test_the_file_and_the_lines_of_the_page_on_sweeps_plan_and_run(tmp_path: Path) -> None:
-    page = (ROOT / "docs" / "sweeps.md").read_text("utf-8")
-    (file,) = re.findall(r"```toml\n(.*?)```", page, re.DOTALL)
-    (tmp_path / "mine.toml").write_text(file)
-    assert len(plan(read_sweep_file(tmp_path / "mine.toml").parts)) == 2 * 8 * 20 + 2 * 2 * 6
-    (block,) = python_blocks("docs/sweeps.md")
-    lines = output("-c", block, cwd=tmp_path).splitlines()
-    assert [line.split()[:3] for line in lines] == [
-        [learner, seed, "finished"] for learner in ("random", "mimicry:T2") for seed in "01"
-    ]
-
-
-def test_the_chapter_on_the_page_on_reproducing_is_one() -> None:
-    names: dict[str, Any] = {}
-    (block,) = python_blocks("docs/reproducing.md")
-    exec(block, names)
-    assert len(plan(names["MINE"].to_run(None, quick=False, worlds=False)[0])) == 40
 
 
 def test_the_lines_of_the_page_on_configurations_run(tmp_path: Path) -> None:
