@@ -226,6 +226,8 @@ def test_a_variant_has_its_own_runs_of_other_settings_and_no_other_variants() ->
     ]
     wide = [run(WIDE, name, 0, HOLDS[WIDE, name]) for name in ("sagg-riac", "sgim-d:D3")]
     worlds = linked(worlds_of([*runs, *wide]), "fishing")
+    alone = decide(FISHING, next(w for w in worlds if w.name == WIDE))
+    assert not alone.by_id["F7"].findings
     found = decide(FISHING, next(w for w in worlds if w.name == "fishing-noisy")).by_id
     assert found["H6"].findings
     assert not found["F7"].findings

@@ -104,7 +104,9 @@ def linked(worlds: Sequence[World], experiment: str) -> list[World]:
         return {
             other.name: other
             for other in worlds
-            if other.base == world.base and world.experiment in (experiment, other.experiment)
+            if other is not world
+            and other.base == world.base
+            and world.experiment in (experiment, other.experiment)
         }
 
     return [w if w.settings else replace(w, elsewhere=near(w)) for w in worlds]
