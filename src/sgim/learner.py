@@ -87,11 +87,6 @@ class Learner(Transitions, Answers):
         """The plans that are out, oldest first."""
         return [plan for plan, _ in self.ledger.plans.values()]  # as they were given out
 
-    @property
-    def absent(self) -> frozenset[str]:
-        """The teachers who cannot be asked now."""
-        return frozenset(self._absent)
-
     # Deciding.
 
     def ask(self, context: Any = None) -> Plan:

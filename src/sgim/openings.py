@@ -58,6 +58,11 @@ class Openings:
         self._was_told = False
         self._unwritten: UnwrittenError | None = None
 
+    @property
+    def absent(self) -> frozenset[str]:
+        """The teachers who cannot be asked now."""
+        return frozenset(self._absent)
+
     def decide(self, contexts: Sequence[Any]) -> list[Opened]:
         """Decide the next episodes' modes and goals, one for each context, without opening them.
 

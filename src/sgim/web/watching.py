@@ -102,6 +102,7 @@ class Watched:
                     upto = min(end, self._after + grain)
                     self._count(db, self._after, upto)
                     self._after = upto
+                self._note_goals(db, begun, end)
                 if has_letters(db):
                     self._requests["asked"] = db.execute(
                         "SELECT count(*) FROM requests"
@@ -129,12 +130,6 @@ class Watched:
             self._strip.append((self.movements, opened))
             if len(self._strip) > 4 * WINDOWS:
                 self._strip = _merged(self._strip, 2 * WINDOWS)
-            statement = (
-                f"SELECT kind, point, name {within} AND event = 'opened' AND kind IS NOT NULL "
-                f"ORDER BY seq DESC LIMIT {LATEST_GOALS}"
-            )
-            for kind, packed, mode in db.execute(statement, rows).fetchall()[::-1]:
-                self._mark(self._goals, kind, packed, list(self._mode(mode)[1]).index(mode))
         if "closed" in counts:
             self._end_episodes(db, within, rows)
         if counts.keys() & {"answered", "demonstrated", "ended"}:
@@ -144,9 +139,19 @@ class Watched:
             for event, detail in db.execute(statement, rows):
                 self._note(event, json.loads(detail))
 
-    def _mode(self, name: str) -> tuple[list[float], dict[str, list[float]]]:
-        """Sums of a mode (episodes, movements, progress), and those of all."""
-        return self._modes.setdefault(name, [0.0, 0.0, 0.0]), self._modes
+    def _note_goals(self, db: sqlite3.Connection, after: int, upto: int) -> None:
+        """Keep the latest goals."""
+        statement = (
+            "SELECT kind, point, name FROM events WHERE seq > ? AND seq <= ? "
+            f"AND event = 'opened' AND kind IS NOT NULL ORDER BY seq DESC LIMIT {LATEST_GOALS}"
+        )
+        numbers = {mode: number for number, mode in enumerate(self._modes)}
+        for kind, packed, mode in db.execute(statement, (after, upto)).fetchall()[::-1]:
+            self._mark(self._goals, kind, packed, numbers[mode])
+
+    def _mode(self, name: str) -> list[float]:
+        """Sums of a mode: episodes, movements, progress."""
+        return self._modes.setdefault(name, [0.0, 0.0, 0.0])
 
     def _sample(self, db: sqlite3.Connection, within: str, rows: Any, told: int) -> None:
         """Keep some of the outcomes, each with about the movement it came at."""
@@ -175,7 +180,7 @@ class Watched:
             f"{within} AND event = 'closed' GROUP BY name"
         )
         for name, episodes, movements, progress in db.execute(statement, rows):
-            sums = self._mode(name)[0]
+            sums = self._mode(name)
             lately = self._lately.setdefault(name, deque(maxlen=LATELY))
             lately.append((movements or 0, progress or 0.0))
             for i, value in enumerate((episodes, movements or 0, progress or 0.0)):
