@@ -122,8 +122,7 @@ class Learner(Transitions, Answers):
             while len(chosen) < n and (running := self.ledger.oldest_idle()) is not None:
                 chosen.append((running, None))
                 self.resumed(running, checked[len(chosen) - 1])
-            if len(chosen) < n:
-                chosen += self.open_new(checked[len(chosen) :])
+            chosen += self.open_new(checked[len(chosen) :])
             policies = self.proposed([running for running, _ in chosen])
         except BaseException:
             for running, opening in reversed(chosen):
@@ -178,10 +177,8 @@ class Learner(Transitions, Answers):
             ValueError: If there is not one demonstration, or None, for each plan.
         """
         some = self.ledger.all_out(plans, shown, request=True)
-        usable = [
-            None if given is None else self._usable(given, running)
-            for running, given in zip(some, shown, strict=True)
-        ]
+        pairs = zip(shown, some, strict=True)
+        usable = [given and self._usable(given, running) for given, running in pairs]
         trouble: BaseException | None = None
         try:
             self.learn_answers(plans, some, usable)

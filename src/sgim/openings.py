@@ -116,7 +116,7 @@ class Openings:
         together = chooses_together(self.strategy) and not (self._given or self._suggestions)
         opened: list[tuple[Running, Opened]] = []
         try:
-            for some in [contexts] if together else [[context] for context in contexts]:
+            for some in [contexts] if together and contexts else [[one] for one in contexts]:
                 opened += [(self._enter(e, live=True), e) for e in self.decide(some)]
             self._take_up([running for running, _ in opened if not running.must_ask])
         except BaseException:
