@@ -17,7 +17,7 @@ from sgim.environments.benchmark_goals import throwing_goals
 from sgim.environments.throwing_teachers import throwing_teachers
 from sgim.errors import JournalError, SgimError
 from sgim.records import Demonstration
-from sgim.runs import Benchmark, Interrupted, Journal, Run, RunError, evaluate, open_repertoire
+from sgim.runs import Benchmark, Interrupted, Journal, Run, RunError, open_repertoire
 from sgim.runs.continuation import keep_journal
 
 TASK = ThrowingArm().task
@@ -229,19 +229,6 @@ def test_a_repertoire_answers_as_the_run_did_and_can_be_opened_while_it_goes_on(
         run.go(210)
     solution = open_repertoire(path).solve("throw", [4.0, 2.0])
     assert solution.cost < 0.5
-
-
-def test_a_repertoire_can_be_opened_as_it_was_and_measured_in_any_way(tmp_path: Path) -> None:
-    path, world = tmp_path / "a.sgim", ThrowingArm()
-    benchmark = Benchmark(throwing_goals()[::30], world)
-    with Run(learner(), world, journal=path, benchmark=benchmark, evaluate_every=60) as run:
-        measured = {e.movements: e.errors for e in run.go(180)}
-    for movements, errors in measured.items():
-        early = open_repertoire(path, movements=movements)
-        assert len(early.model.memory) == movements  # type: ignore[attr-defined]
-        assert evaluate(early, benchmark) == errors
-    kernel = evaluate(open_repertoire(path), benchmark, by="kernel")
-    assert kernel["throw"] != measured[180]["throw"]
 
 
 def test_a_journal_without_a_recipe_needs_its_learner(tmp_path: Path) -> None:
