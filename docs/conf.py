@@ -1,17 +1,22 @@
 """How the documentation is built: `sphinx-build -W docs docs/_build`."""
 
 import re
+import sys
+from pathlib import Path
 from typing import Any
 
 import sgim
+
+sys.path.insert(0, str(Path(__file__).parent))  # for the directive of claims
 
 project = "sgim"
 author = "The sgim authors"
 copyright = "The sgim authors, Apache License 2.0"  # noqa: A001 - Sphinx names it so
 version = release = sgim.__version__
 
-extensions = ["sphinx.ext.autodoc", "sphinx.ext.napoleon", "myst_parser"]
-exclude_patterns = ["_build"]
+extensions = ["sphinx.ext.autodoc", "sphinx.ext.napoleon", "myst_parser", "claims_obtained"]
+exclude_patterns = ["_build", "results"]
+html_static_path = ["sounds"]
 myst_enable_extensions = ["colon_fence", "deflist"]
 myst_heading_anchors = 3
 

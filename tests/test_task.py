@@ -119,3 +119,14 @@ def test_tasks_that_differ_are_described_differently() -> None:
         Task(THROW, spaces, sizes={"throw": 6}),
     ]
     assert len({json.dumps(t.describe()) for t in tasks}) == len(tasks)
+
+
+def test_a_policy_at_rest_is_part_of_the_task() -> None:
+    resting = Task(TASK.policy_space, {"throw": THROW}, rest=[0.1, -0.25])
+    assert resting.rest.tolist() == [0.1, -0.25]
+    again = task_from_description(json.loads(json.dumps(resting.describe())))
+    assert again.rest.tolist() == [0.1, -0.25]
+    assert again.describe() == resting.describe()
+    assert "rest" not in TASK.describe()
+    with pytest.raises(SpaceError, match="outside the bounds"):
+        Task(TASK.policy_space, {"throw": THROW}, rest=[0.1, -2.0])

@@ -59,6 +59,7 @@ _PACKAGES = {
     "strategy",
     "teachers",
     "testing",
+    "web",
 }
 
 try:

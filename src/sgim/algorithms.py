@@ -1,8 +1,8 @@
 """Named learners: each a composition of policy level, outcome level and strategy level.
 
-==============================  ====================  ==============  ====================
+==============================  ====================  ==============  =====================
 name                            modes                 interest map    strategy
-==============================  ====================  ==============  ====================
+==============================  ====================  ==============  =====================
 random                          random                none            one mode, no goal
 random-goal-babbling            autonomous            uniform goals   joint choice
 sagg-riac                       autonomous            regions         joint choice
@@ -17,10 +17,13 @@ uniform-choice                  as sgim-acts          uniform goals   joint choi
 round-robin                     as sgim-acts          regions         every mode in turn
 demonstrations-first            mimic, autonomous     uniform goals   demonstrations first
 demonstrations-first-sagg-riac  mimic, autonomous     regions         demonstrations first
-==============================  ====================  ==============  ====================
+sagg-riac-gmm                   autonomous            mixture         at rest, joint choice
+sgim-acts-gmm                   emulate, autonomous   mixture         at rest, joint choice
+goal-babbling-gmm               autonomous            mixture         at rest, joint choice
+==============================  ====================  ==============  =====================
 
-The last four are controls that choosing must beat. Regions are weighed by progress or by expected
-gain, as the configuration says.
+The four before the last two are controls that choosing must beat. Regions are weighed by progress
+or by expected gain, as the configuration says, which may also take a mixture instead of them.
 
 Every function takes the same arguments:
 
@@ -40,7 +43,9 @@ from typing import Any, Protocol
 
 from sgim.configurations import configuration_of
 from sgim.errors import SgimError, unknown
+from sgim.labels import LABEL_ALGORITHMS, has_labels
 from sgim.learner import Learner
+from sgim.mixture_algorithms import goal_babbling_gmm, sagg_riac_gmm, sgim_acts_gmm
 from sgim.outcome import UniformGoals
 from sgim.parts import Given, MakeMap, Parts, Teachers
 from sgim.policy import NoisyNearest, RandomPolicies
@@ -267,7 +272,15 @@ ALGORITHMS: dict[str, Algorithm] = {
     "round-robin": round_robin,
     "demonstrations-first": demonstrations_first,
     "demonstrations-first-sagg-riac": demonstrations_first_sagg_riac,
+    "sagg-riac-gmm": sagg_riac_gmm,
+    "sgim-acts-gmm": sgim_acts_gmm,
+    "goal-babbling-gmm": goal_babbling_gmm,
 }
+
+
+def algorithms_for(task: Task) -> Mapping[str, Algorithm]:
+    """The learners for a task, by name: where all goals are labels, those of `sgim.labels`."""
+    return LABEL_ALGORITHMS if has_labels(task) else ALGORITHMS
 
 
 def make(
@@ -284,9 +297,10 @@ def make(
         UnknownNameError: If there is no such learner or configuration.
         SgimError: If the learner needs other teachers.
     """
-    if name not in ALGORITHMS:
-        raise unknown("learner", name, ALGORITHMS)
-    return ALGORITHMS[name](task, teachers, configuration=configuration, seed=seed)
+    known = algorithms_for(task)
+    if name not in known:
+        raise unknown("learner", name, known)
+    return known[name](task, teachers, configuration=configuration, seed=seed)
 
 
 def from_recipe(task: Task, recipe: Mapping[str, Any]) -> Learner:

@@ -9,6 +9,7 @@ from dataclasses import asdict, dataclass, replace
 from typing import Any, Literal, get_args, get_type_hints
 
 from sgim.errors import SettingError, unknown
+from sgim.mixture_settings import MixtureSettings
 from sgim.outcome.progress import InterestMeasure, MeanProgress
 from sgim.task import Task
 
@@ -27,12 +28,15 @@ _ABOVE_NOTHING = ("social_cost", "progress_scale", "request_cost")
 
 
 @dataclass(frozen=True, slots=True)
-class Configuration:
+class Configuration(MixtureSettings):
     """Every constant of a learner; nothing in it names a world.
+
+    Those of the learners with Gaussian mixtures are in its base.
 
     Attributes:
         name: ``"thesis"``, ``"modern"``, or a name of one's own.
-        search: The goal-directed explorer, ``"nelder-mead"`` or ``"local"``.
+        search: The goal-directed explorer: ``"nelder-mead"``, ``"local"``, ``"pi2"``, or
+            ``"cma-es"``, which needs the extra ``cma``.
         answering: Which policy answers a goal: that of the ``"nearest"`` outcome, as in the thesis,
             the most ``"reliable"`` one, the best by a ``"kernel"`` mean, or by a ``"local"`` model.
         search_movements: Movements of an autonomous or emulation episode.
@@ -60,8 +64,9 @@ class Configuration:
             a demonstration not seen before.
         reached_share: Local search ends an episode when its goal is within the task's tolerance
             and its cost at most this share of what it was before.
-        interest: What makes a goal interesting: recent ``"progress"``, as in the thesis, or the
-            ``"gain"`` that is expected of a movement.
+        interest: What makes a goal interesting: recent ``"progress"`` in regions, as in the
+            thesis; the ``"gain"`` that is expected of a movement; progress in a ``"mixture"`` over
+            time, goals and competence, as in chapter 5; or absolute progress, ``"alp-gmm"``.
         goals: How many goals are drawn to choose among; for ``"gain"``.
         sharpness: How much a mode is preferred to those that gain less; for ``"gain"``.
         first_demonstrations: Requests of ``demonstrations-first`` before it explores alone.
@@ -72,10 +77,17 @@ class Configuration:
         request_window: How many of the latest episodes of each mode count, ns.
         request_initiation: Episodes of each mode until which both are chosen alike, nbMin.
         request_least: Least probability of asking, and of not asking.
+        label_window: δ of eq. 2.2, even: how many of the latest competences of a label and mode
+            count; where goals are labels, as for those that follow.
+        label_uniform: p₁ of algorithm 2.2.3: how often any label and mode is chosen.
+        label_tested: Whether a picture shows competence for its label ``after`` it was learned or
+            ``before``.
+        label_pick: Whether labels and modes are drawn in proportion to their interest, or the most
+            interesting is taken.
     """
 
     name: str
-    search: Literal["nelder-mead", "local"]
+    search: Literal["nelder-mead", "local", "cma-es", "pi2"]
     search_movements: int = 20
     mimicry_movements: int = 10
     mimicry_radius: float = 0.05
@@ -92,7 +104,7 @@ class Configuration:
     sized: bool = True
     news: bool = False
     reached_share: float = 0.5
-    interest: Literal["progress", "gain"] = "progress"
+    interest: Literal["progress", "gain", "mixture", "alp-gmm"] = "progress"
     goals: int = 3
     sharpness: float = 3.0
     first_demonstrations: int = 100
@@ -101,6 +113,10 @@ class Configuration:
     request_window: int = 20
     request_initiation: int = 10
     request_least: float = 0.1
+    label_window: int = 8
+    label_uniform: float = 0.3
+    label_tested: Literal["after", "before"] = "after"
+    label_pick: Literal["proportional", "argmax"] = "proportional"
     answering: Literal["nearest", "reliable", "kernel", "local"] = "nearest"
 
     def __post_init__(self) -> None:
@@ -110,6 +126,7 @@ class Configuration:
         for name in _ABOVE_NOTHING:
             if not 0 < getattr(self, name) < math.inf:
                 raise SettingError(f"{name} is {getattr(self, name)}, expected a positive number")
+        self.check_mixtures()
 
     def measure(self, task: Task) -> InterestMeasure:
         """How progress and interest are measured (eq. 4.2 and 4.3)."""
@@ -135,6 +152,14 @@ MODERN = Configuration(
     prior=0.5,
     first_demonstrations=200,
     news=True,
+    mixture_starving=0.002,
+    mixture_bounds="reflect",
+    mixture_answers="nearest",
+    mixture_scaled=True,
+    interest_weights="correlation",
+    interest_uniform=0.1,
+    interest_recent=0.02,
+    interest_random_modes=0.05,
     answering="local",
 )
 CONFIGURATIONS = {c.name: c for c in (THESIS, MODERN)}

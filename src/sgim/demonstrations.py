@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import Any
 
 from sgim.errors import SgimError, TeacherError
@@ -11,7 +10,9 @@ from sgim.spaces import Box
 from sgim.task import Task
 
 
-def checked(task: Task, given: Demonstration, teacher: str) -> Demonstration:
+def checked(
+    task: Task, given: Demonstration, teacher: str, *, needing: str | None = None
+) -> Demonstration:
     """Return the demonstration as the learner can use it.
 
     A trajectory without a policy is mapped to one by the task's primitive (the correspondence,
@@ -22,10 +23,11 @@ def checked(task: Task, given: Demonstration, teacher: str) -> Demonstration:
         task: The task.
         given: What the teacher gave.
         teacher: The teacher's name, for the record and for messages.
+        needing: Name of the mode that asked for it, if that needs a policy.
 
     Raises:
-        TeacherError: If it is not a demonstration, shows no outcome that could be a goal, or
-            holds a value that is malformed or not finite.
+        TeacherError: If it is not a demonstration, shows no outcome that could be a goal, has
+            no policy where one is needed, or holds a value that is malformed or not finite.
     """
     if not isinstance(given, Demonstration):
         raise TeacherError(
@@ -42,7 +44,12 @@ def checked(task: Task, given: Demonstration, teacher: str) -> Demonstration:
         ) from error
     if not outcome:
         raise TeacherError(f"teacher {teacher!r} gave a demonstration without an outcome")
-    return replace(given, outcome=outcome, policy=policy, teacher=teacher, context=context)
+    if needing is not None and policy is None:
+        raise TeacherError(
+            f"mode {needing!r} needs a demonstration with a policy or a trajectory; this one has "
+            "only an outcome"
+        )
+    return Demonstration(outcome, policy, given.trajectory, teacher, context)
 
 
 def _policy(task: Task, given: Demonstration) -> Any:

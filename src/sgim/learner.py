@@ -12,7 +12,7 @@ from typing import Any
 
 from sgim import demonstrations
 from sgim.answers import Answers
-from sgim.errors import SpaceError, TeacherError, unknown
+from sgim.errors import SpaceError, unknown
 from sgim.events import (
     Answered,
     Available,
@@ -91,7 +91,12 @@ class Learner(Transitions, Answers):
     @property
     def pending(self) -> list[Plan]:
         """The plans that are out, oldest first."""
-        return [plan for _, (plan, _) in sorted(self.ledger.plans.items())]
+        return [plan for plan, _ in self.ledger.plans.values()]  # as they were given out
+
+    @property
+    def absent(self) -> frozenset[str]:
+        """The teachers who cannot be asked now."""
+        return frozenset(self._absent)
 
     # Deciding.
 
@@ -104,26 +109,7 @@ class Learner(Transitions, Answers):
         Returns:
             A plan with a policy to try, or with a request to a teacher.
         """
-        context = self.task.check_context(context)
-        running = self.ledger.oldest_idle()
-        if running is not None:
-            try:
-                policy = self.proposed(self.resumed(running, context))
-            except BaseException:
-                self.ledger.make_idle(running)
-                raise
-        else:
-            event = self.decide_opening(context)
-            running = self.open(event)
-            try:
-                policy = self.proposed(running)
-            except BaseException:
-                self.unopen(running, event)
-                raise
-            self._emit(event)
-        plan = self.issue(running, policy)
-        self.report_unwritten()
-        return plan
+        return self.ask_batch(1, [context])[0]
 
     def ask_batch(self, n: int, contexts: Sequence[Any] | None = None) -> list[Plan]:
         """Decide n plans that can be carried out side by side.
@@ -144,16 +130,12 @@ class Learner(Transitions, Answers):
         checked = [self.task.check_context(c) for c in given]
         chosen: list[tuple[Running, Opened | None]] = []
         try:
-            for context in checked:
-                running = self.ledger.oldest_idle()
-                if running is not None:
-                    chosen.append((running, None))
-                    self.resumed(running, context)
-                else:
-                    event = self.decide_opening(context)
-                    chosen.append((self.open(event), event))
-            asking = [running for running, _ in chosen if not running.must_ask]
-            policies = self.all_sealed(_propose(asking)) if asking else []
+            while len(chosen) < n and (running := self.ledger.oldest_idle()) is not None:
+                chosen.append((running, None))
+                self.resumed(running, checked[len(chosen) - 1])
+            if len(chosen) < n:
+                chosen += self.open_new(checked[len(chosen) :])
+            policies = self.proposed([running for running, _ in chosen])
         except BaseException:
             for running, opening in reversed(chosen):
                 if opening is None:
@@ -161,12 +143,11 @@ class Learner(Transitions, Answers):
                 else:
                     self.unopen(running, opening)
             raise
-        proposed = iter(policies)
         plans = []
-        for running, opening in chosen:
+        for (running, opening), policy in zip(chosen, policies, strict=True):
             if opening is not None:
                 self._emit(opening)
-            plans.append(self.issue(running, None if running.must_ask else next(proposed)))
+            plans.append(self.issue(running, policy))
         self.report_unwritten()
         return plans
 
@@ -191,26 +172,50 @@ class Learner(Transitions, Answers):
             TeacherError: If the demonstration is unusable; the request is still out then.
             PlanError: If the plan is not out, or holds no request.
         """
-        running = self.ledger.out(plan, request=True)
-        usable = None
-        if demonstration is not None:
-            assert plan.request is not None
-            usable = demonstrations.checked(self.task, demonstration, plan.request.teacher)
-            if running.mode.needs_policy and usable.policy is None:
-                raise TeacherError(
-                    f"mode {running.mode.name!r} needs a demonstration with a policy or a "
-                    "trajectory; this one has only an outcome"
-                )
-        self._emit(Answered(plan.id, usable, seconds))
+        return self.answer_batch([plan], [demonstration], seconds=[seconds])[0]
+
+    def answer_batch(
+        self,
+        plans: Sequence[Plan],
+        shown: Sequence[Demonstration | None],
+        *,
+        seconds: Sequence[float | None] | None = None,
+    ) -> list[Plan]:
+        """As `answer` for several requests, in this order, at one pass through the explorers.
+
+        Raises:
+            TeacherError: If a demonstration is unusable; all the requests are still out then.
+            PlanError: If a plan is not out, holds no request, or comes twice; the same holds.
+            ValueError: If there is not one demonstration, or None, for each plan.
+        """
+        some = self.ledger.all_out(plans, shown, request=True)
+        usable = [
+            None if given is None else self._usable(given, running)
+            for running, given in zip(some, shown, strict=True)
+        ]
+        trouble: BaseException | None = None
         try:
-            self.learn_answer(plan, running, usable)
-            policy = self.proposed(running)
-        except BaseException:
-            self.ledger.make_idle(running)
-            raise
-        following = self.issue(running, policy)
+            self.learn_answers(plans, some, usable)
+            policies = self.proposed(some)
+        except BaseException as error:
+            trouble = error
+        following = []
+        for i, (plan, running, given) in enumerate(zip(plans, some, usable, strict=True)):
+            self._emit(Answered(plan.id, given, None if seconds is None else seconds[i]))
+            if trouble is None:
+                following.append(self.issue(running, policies[i]))
+            else:
+                self.ledger.make_idle(running)
+        if trouble is not None:
+            raise trouble
         self.report_unwritten()
         return following
+
+    def _usable(self, given: Demonstration, running: Running) -> Demonstration:
+        mode = running.mode
+        assert mode.teacher is not None
+        needing = mode.name if mode.needs_policy else None
+        return demonstrations.checked(self.task, given, mode.teacher, needing=needing)
 
     def tell(self, plan: Plan, outcome: Outcome, *, seconds: float | None = None) -> Report:
         """Say what a plan's policy produced.
@@ -227,13 +232,47 @@ class Learner(Transitions, Answers):
             SpaceError: If the outcome is malformed; the plan is still out then.
             PlanError: If the plan is not out, or holds a request.
         """
-        running = self.ledger.out(plan, request=False)
-        outcome = self.task.check_outcome(outcome)
-        if self.record is not None:
-            self._emit(Told(plan.id, outcome, seconds))
-        report = self.learn_trial(plan, running, Trial(plan.policy, outcome, plan.context))
+        return self.tell_batch([plan], [outcome], seconds=[seconds])[0]
+
+    def tell_batch(
+        self,
+        plans: Sequence[Plan],
+        outcomes: Sequence[Outcome],
+        *,
+        seconds: Sequence[float | None] | None = None,
+    ) -> list[Report]:
+        """As `tell` for several plans, in this order; the model learns from all of them at once.
+
+        Args:
+            plans: Different plans of this learner that hold policies and are still out.
+            outcomes: What each produced.
+            seconds: The robot's time that each took, if known.
+
+        Raises:
+            SpaceError: If an outcome is malformed; all the plans are still out then.
+            PlanError: If a plan is not out, holds a request, or comes twice; the same holds.
+            ValueError: If there is not one outcome for each plan.
+        """
+        some = self.ledger.all_out(plans, outcomes, request=False)
+        checked = self.task.check_outcomes(outcomes)
+        trials = [Trial(p.policy, o, p.context) for p, o in zip(plans, checked, strict=True)]
+        known = self.remember(some, trials)
+        taken = [None] * len(plans) if seconds is None else seconds
+        reports: list[Report] = []
+        troubles: list[BaseException] = []
+        for plan, running, trial, remembered, time in zip(
+            plans, some, trials, known, taken, strict=True
+        ):
+            if self.record is not None:
+                self._emit(Told(plan.id, trial.outcome, time))
+            try:
+                reports.append(self.learn_trial(plan, running, trial, remembered))
+            except BaseException as error:  # those behind it have happened, too
+                troubles.append(error)
+        if troubles:
+            raise troubles[0]
         self.report_unwritten()
-        return report
+        return reports
 
     def fail(self, plan: Plan, reason: str, *, seconds: float | None = None) -> None:
         """Say that the world broke while a plan was carried out: it teaches nothing."""
@@ -309,17 +348,3 @@ class Learner(Transitions, Answers):
         self._emit(event)
         self.take_unasked(event)
         self.report_unwritten()
-
-
-def _propose(chosen: Sequence[Running]) -> list[Any]:
-    """Policies for these episodes in order, each explorer asked once."""
-    groups: dict[int, list[int]] = {}
-    for i, running in enumerate(chosen):
-        groups.setdefault(id(running.mode.explorer), []).append(i)
-    policies: list[Any] = [None] * len(chosen)
-    for members in groups.values():
-        explorer = chosen[members[0]].mode.explorer
-        proposed = explorer.propose([chosen[i].episode for i in members])
-        for i, policy in zip(members, proposed, strict=True):
-            policies[i] = policy
-    return policies

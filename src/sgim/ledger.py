@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import heapq
+from collections.abc import Sequence
 from typing import Any
 
 from sgim.errors import PlanError
@@ -149,6 +150,27 @@ class Ledger:
                 else f"plan {plan.id} holds a policy, not a request: use tell(plan, outcome)"
             )
         return entry[1]
+
+    def all_out(
+        self, plans: Sequence[Plan], told: Sequence[Any], *, request: bool
+    ) -> list[Running]:
+        """The episodes of different plans that are all out.
+
+        Args:
+            plans: The plans.
+            told: What came of each.
+            request: Whether they must hold requests, or must not.
+
+        Raises:
+            PlanError: As `out`, and if a plan comes twice.
+            ValueError: If there is not one of ``told`` for each plan.
+        """
+        if len(told) != len(plans):
+            raise ValueError(f"{len(plans)} plans came with {len(told)} answers or outcomes")
+        some = [self.out(plan, request=request) for plan in plans]
+        if len(plans) > 1 and len({plan.id for plan in plans}) < len(plans):
+            raise PlanError("a plan comes twice in one batch; each is told once")
+        return some
 
     def resolve(self, plan: Plan, status: int) -> None:
         """Note that a plan is no longer out, and why."""

@@ -9,13 +9,26 @@ from sgim.configurations import Configuration, configuration_of
 from sgim.errors import SgimError
 from sgim.learner import Learner
 from sgim.memory import Memory
-from sgim.outcome import ExpectedGain, InterestMap, RegionTree, UniformGoals
+from sgim.outcome import (
+    AbsoluteProgress,
+    ExpectedGain,
+    InterestMap,
+    MixtureInterest,
+    RegionTree,
+    UniformGoals,
+)
 from sgim.policy import (
+    CompetenceModel,
+    CovarianceAdaptation,
     Explorer,
     LocalSearch,
+    MakeDistribution,
     Mimicry,
+    MixtureModel,
     NearestModel,
     NelderMeadSearch,
+    PathIntegral,
+    PopulationSearch,
     answering_of,
 )
 from sgim.strategy import DemonstrationsFirst, JointChoice, Mode, News, Strategy
@@ -25,6 +38,8 @@ from sgim.task import Task
 Teachers = str | Sequence[str]
 MakeMap = Callable[[Mapping[str, float]], InterestMap]
 Given = str | Configuration
+
+_DISTRIBUTIONS: dict[str, MakeDistribution] = {"cma-es": CovarianceAdaptation, "pi2": PathIntegral}
 
 
 class Parts:
@@ -47,8 +62,8 @@ class Parts:
         self.interest = interest
         self.model = NearestModel(Memory(task), answering_of(self.config.answering))
 
-    def learner(self, strategy: Strategy) -> Learner:
-        """A learner with this strategy, and its recipe."""
+    def learner(self, strategy: Strategy, model: CompetenceModel | None = None) -> Learner:
+        """A learner with this strategy, its recipe, and the nearest neighbours or another model."""
         recipe = {
             "learner": self.name,
             "teachers": self.teachers,
@@ -58,7 +73,7 @@ class Parts:
         return Learner(
             self.task,
             strategy,
-            self.model,
+            self.model if model is None else model,
             seed=self.seed,
             recipe=recipe if self.interest is None else None,
         )
@@ -81,6 +96,12 @@ class Parts:
         config = self.config
         if config.search == "nelder-mead":
             return NelderMeadSearch(self.model)
+        if config.search in _DISTRIBUTIONS:
+            return PopulationSearch(
+                self.model,
+                _DISTRIBUTIONS[config.search],
+                reached_share=config.reached_share,
+            )
         return LocalSearch(
             self.model, budget=config.search_movements, reached_share=config.reached_share
         )
@@ -170,6 +191,15 @@ class Parts:
                 uniform=config.goal_rules[0],
                 goals=config.goals,
             )
+        if config.interest == "mixture":
+            return self.mixture_interest(costs)
+        if config.interest == "alp-gmm":
+            return AbsoluteProgress(
+                self.task.goal_spaces,
+                costs,
+                Streams(self.seed),
+                context_space=self.task.context_space,
+            )
         return RegionTree(
             self.task.goal_spaces,
             costs,
@@ -182,4 +212,25 @@ class Parts:
             prior=config.prior,
             staleness=config.staleness,
             credit=config.credit,
+        )
+
+    def mixture_interest(
+        self, costs: Mapping[str, float], model: MixtureModel | None = None
+    ) -> MixtureInterest:
+        """The map G_IM of chapter 5; the model's outcomes are its first goals, if there is one."""
+        config = self.config
+        return MixtureInterest(
+            self.task.goal_spaces,
+            costs,
+            Streams(self.seed),
+            context_space=self.task.context_space,
+            produced=None if model is None else model.produced,
+            recent=None if model is None else model.recent,
+            components=config.interest_components,
+            window=config.interest_window,
+            every=config.interest_every,
+            weighting=config.interest_weights,
+            uniform_share=config.interest_uniform,
+            recent_share=config.interest_recent,
+            random_modes=config.interest_random_modes,
         )

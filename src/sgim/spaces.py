@@ -16,6 +16,7 @@ from typing import Any, Protocol, runtime_checkable
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from sgim.arrays import Arrays
 from sgim.errors import SpaceError, unknown
 
 FloatArray = NDArray[np.float64]
@@ -114,6 +115,7 @@ class Box:
         self._width = self.range.copy()
         while (beyond := self.low + self._width > self.high).any():
             self._width[beyond] = np.nextafter(self._width[beyond], 0.0)
+        self._lows, self._ranges = self.low.tolist(), self.range.tolist()
         self._shape = (d,)
         self.low.flags.writeable = self.high.flags.writeable = self.range.flags.writeable = False
 
@@ -185,6 +187,11 @@ class Box:
         """Scale to the unit box; also for arrays of shape ``(..., d)``."""
         scaled: FloatArray = (point - self.low) / self.range
         return scaled
+
+    def encoded(self, point: FloatArray) -> list[float]:
+        """As `encode`, in plain numbers: faster for one point of few coordinates."""
+        numbers = zip(point.tolist(), self._lows, self._ranges, strict=True)
+        return [(x - low) / width for x, low, width in numbers]
 
     def decode(self, vector: FloatArray) -> FloatArray:
         """The point that encodes to ``vector``, but for rounding; also for shape ``(..., d)``.
@@ -279,7 +286,7 @@ class Choices:
 
 
 def space_from_description(description: Mapping[str, Any]) -> Space:
-    """Make a `Box` or `Choices` again from what its ``describe`` gave.
+    """Make a `Box`, `Choices` or `Arrays` again from what its ``describe`` gave.
 
     Raises:
         SpaceError: If the description is of a space that is not part of the library.
@@ -291,6 +298,11 @@ def space_from_description(description: Mapping[str, Any]) -> Space:
         )
     if kind == "choices":
         return Choices(description["labels"])
+    if kind == "arrays":
+        fields = {
+            name: (dtype, columns) for name, (dtype, columns) in description["fields"].items()
+        }
+        return Arrays(fields, description["together"])
     raise SpaceError(
         f"a space described as {kind!r} cannot be rebuilt from a journal alone; "
         "pass the task that has it"

@@ -44,9 +44,12 @@ class Task:
             0.01 for kinds not named.
         sizes: Kind → the size |A_i| of the thesis's eq. 4.2, by which the configuration
             ``thesis`` makes progress comparable between kinds; 1 for kinds not named.
+        rest: A policy around which a learner may begin, such as a posture at rest. None if the
+            world has none.
 
     Raises:
-        SpaceError: If there is no outcome kind, or a tolerance or size is not positive.
+        SpaceError: If there is no outcome kind, a tolerance or size is not positive, or the
+            policy at rest is not a policy.
         UnknownNameError: If a tolerance or size names no goal kind.
     """
 
@@ -60,6 +63,7 @@ class Task:
         primitive: Primitive | None = None,
         tolerances: Mapping[str, float] | None = None,
         sizes: Mapping[str, float] | None = None,
+        rest: Any = None,
     ) -> None:
         if not outcome_spaces:
             raise SpaceError("a task needs one or more outcome spaces: {kind: space}")
@@ -73,6 +77,7 @@ class Task:
         self.primitive = primitive
         self.tolerances = self._per_kind("tolerance", tolerances, 0.01)
         self.sizes = self._per_kind("size", sizes, 1.0)
+        self.rest: Any = None if rest is None else self.check_policy(rest)
 
     def _per_kind(
         self, what: str, given: Mapping[str, float] | None, default: float
@@ -114,6 +119,24 @@ class Task:
             checked[kind] = space.check(value, f"outcome {kind!r}")
         return checked
 
+    def check_outcomes(self, outcomes: Sequence[Outcome]) -> list[dict[str, Any]]:
+        """As `check_outcome` for several outcomes."""
+        places: dict[str, list[int]] = {}
+        for i, outcome in enumerate(outcomes):
+            if len(outcomes) == 1 or type(outcome) is not dict:
+                return [self.check_outcome(outcome) for outcome in outcomes]
+            for kind in outcome:
+                places.setdefault(kind, []).append(i)
+        checked: list[dict[str, Any]] = [dict.fromkeys(outcome) for outcome in outcomes]
+        for kind, members in places.items():
+            space = self.outcome_spaces.get(kind)
+            if not isinstance(space, Box):
+                return [self.check_outcome(outcome) for outcome in outcomes]
+            points = space.check_all([outcomes[i][kind] for i in members], f"outcome {kind!r}")
+            for i, point in zip(members, points, strict=True):
+                checked[i][kind] = point
+        return checked
+
     def check_goal(self, kind: str, point: Any) -> Goal:
         """Return the goal with its point checked by its space."""
         space = self.goal_spaces.get(kind)
@@ -149,6 +172,7 @@ class Task:
             "context": None if self.context_space is None else self.context_space.describe(),
             "tolerances": self.tolerances,
             "sizes": self.sizes,
+            **({} if self.rest is None else {"rest": self.policy_space.pack(self.rest).hex()}),
         }
 
 
@@ -159,11 +183,13 @@ def task_from_description(description: Mapping[str, Any]) -> Task:
         SpaceError: If one of its spaces is not part of the library.
     """
     goals, context = description["goals"], description["context"]
+    policy_space, rest = space_from_description(description["policy"]), description.get("rest")
     return Task(
-        space_from_description(description["policy"]),
+        policy_space,
         {k: space_from_description(s) for k, s in description["outcomes"].items()},
         goal_spaces=goals and {k: space_from_description(s) for k, s in goals.items()},
         context_space=context and space_from_description(context),
         tolerances=description["tolerances"],
         sizes=description["sizes"],
+        rest=rest and policy_space.unpack(bytes.fromhex(rest)),
     )

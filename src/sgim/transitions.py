@@ -1,4 +1,4 @@
-"""The transitions of a learner's state: what it decides, and what it learns from each event.
+"""The transitions of a learner's state: what it learns from each event.
 
 Nothing here checks what comes from outside or records it; the learner's public face does. Folding
 a record goes through the same transitions, so that what was learned comes out the same.
@@ -6,235 +6,80 @@ a record goes through the same transitions, so that what was learned comes out t
 
 from __future__ import annotations
 
-from collections import deque
-from collections.abc import Callable, Sequence
-from typing import Any
-
-import numpy as np
+from collections.abc import Sequence
+from typing import NamedTuple
 
 from sgim import ledger
-from sgim.errors import UnwrittenError
-from sgim.events import (
-    Available,
-    Closed,
-    Demonstrated,
-    Ending,
-    Event,
-    Observed,
-    Opened,
-    Planned,
-    Suggested,
-)
-from sgim.ledger import Ledger, Running
+from sgim.events import Available, Closed, Demonstrated, Ending, Observed, Suggested
+from sgim.ledger import Running
+from sgim.openings import Openings
 from sgim.outcome.interest import EpisodeReport
-from sgim.policy.explorer import Episode
-from sgim.policy.model import CompetenceModel
-from sgim.records import Demonstration, Goal, Plan, Report, Trial
-from sgim.spaces import Box
-from sgim.strategy.situation import Situation
-from sgim.strategy.strategy import Strategy, mode_for, mode_named
-from sgim.streams import Streams
-from sgim.task import Task
+from sgim.policy.model import learn_all
+from sgim.records import Demonstration, Plan, Report, Trial
 
 
-class Transitions:
-    """The state of a learner and how it changes.
+class Remembered(NamedTuple):
+    """That a model has taken in a trial, and the competence that it alone shows."""
 
-    Args:
-        task: The spaces of the world.
-        strategy: Chooses modes and goals, with the interest map it uses.
-        model: Learns from trials.
-        seed: Of all the learner's random streams.
+    shown: float | None
 
-    Attributes:
-        record: Called with every event as it happens; set by whoever keeps the journal.
-        movements: Trials executed so far, whether they told something or failed.
-        folding: Whether recorded events are being folded, which say themselves when the
-            episodes end whose explorers are not in use.
-    """
 
-    def __init__(
-        self, task: Task, strategy: Strategy, model: CompetenceModel, seed: int = 0
+class Transitions(Openings):
+    """How a learner's state changes by what it learns."""
+
+    def learn_answers(
+        self,
+        plans: Sequence[Plan],
+        some: Sequence[Running],
+        demonstrations: Sequence[Demonstration | None],
     ) -> None:
-        self.task = task
-        self.strategy = strategy
-        self.model = model
-        self.streams = Streams(seed)
-        self.record: Callable[[Event], None] | None = None
-        self.movements = 0
-        self.folding = False
-        self.ledger = Ledger()
-        self._rng = (-1, self.streams("learner"))
-        self._absent: set[str] = set()
-        self._suggestions: deque[Goal] = deque()
-        self._given: deque[Demonstration] = deque()
-        self._was_told = False
-        self._unwritten: UnwrittenError | None = None
+        """Take up demonstrations, or where there is none, the goal chosen."""
+        for plan, running, demonstration in zip(plans, some, demonstrations, strict=True):
+            if demonstration is None:
+                running.mode = self.strategy.alone
+            status = ledger.EXPIRED if demonstration is None else ledger.ANSWERED
+            self.ledger.resolve(plan, status)
+            running.episode.demonstration = demonstration
+        self._take_up(some)
 
-    def decide_opening(self, context: Any) -> Opened:
-        """Decide the next episode's mode and goal, without opening it."""
-        number = self.ledger.next_episode
-        self._rng = number, self.streams("learner", number)
-        now = Situation(number, self._absent, context, self.ledger.running.values())
-        mode, chosen, budget = self.strategy.choose(now, self._rng[1])
-        if chosen is not None:
-            chosen = self.task.check_goal(chosen.kind, chosen.point)
-        if self._given:
-            shown = self._shown(self._given[0], chosen)
-            mode = mode_for(self.strategy, self._given[0])
-            return Opened(number, mode.name, shown or chosen, context, "demonstration")
-        if self._suggestions:
-            mode = self.strategy.alone if mode.pursues == "nothing" else mode
-            return Opened(number, mode.name, self._suggestions[0], context, "suggestion", budget)
-        return Opened(number, mode.name, chosen, context, "strategy", budget)
+    def remember(
+        self, some: Sequence[Running], trials: Sequence[Trial]
+    ) -> Sequence[Remembered | None]:
+        """Let the model take in the trials of a batch at once, before `learn_trial` for each.
 
-    def open(self, event: Opened, *, live: bool = True) -> Running:
-        """Open the episode that was decided; ``live`` if its explorer is to be used."""
-        number = event.episode
-        self.ledger.next_episode = number + 1
-        # The choice was drawn from the episode's own stream, which goes on from there.
-        decided, rng = self._rng
-        if decided != number:
-            rng = self.streams("learner", number)
-        episode = Episode(number, event.goal, event.context, rng)
-        mode = mode_named(self.strategy, event.mode)
-        running = Running(mode, event.goal, event.context, episode, live, event.budget)
-        self.ledger.running[number] = running
-        if event.cause == "suggestion":
-            self._suggestions.popleft()
-        elif event.cause == "demonstration":
-            episode.demonstration = self._given.popleft()
-        try:
-            if not running.must_ask:
-                self._take_up(running)
-        except BaseException:
-            self.unopen(running, event)
-            raise
-        return running
-
-    def unopen(self, running: Running, event: Opened) -> None:
-        """Forget an episode that could not be begun, as if it had not been decided."""
-        del self.ledger.running[event.episode]
-        self.ledger.next_episode = event.episode
-        if event.cause == "suggestion" and event.goal is not None:
-            self._suggestions.appendleft(event.goal)
-        elif event.cause == "demonstration" and running.episode.demonstration is not None:
-            self._given.appendleft(running.episode.demonstration)
-
-    def _take_up(self, running: Running) -> None:
-        """Pursue the goal, now that all there is to know about it is known."""
-        episode, mode = running.episode, running.mode
-        if mode.pursues == "nothing":
-            episode.goal = None
-        elif mode.pursues == "demonstrated" and episode.demonstration is not None:
-            episode.goal = self._shown(episode.demonstration, running.chosen) or episode.goal
-        if episode.demonstration is not None and running.watched is not None:
-            shown_in = episode.demonstration.context
-            episode.context = episode.context if shown_in is None else shown_in
-        if running.live:
-            if episode.goal is None and mode.pursues != "nothing":
-                running.chosen = episode.goal = self._goal_alone(running)
-            if episode.goal is not None:
-                competence = float(self.model.competence(episode.goal, episode.context))
-                episode.before = episode.best = competence
-            mode.explorer.begin(episode)
-
-    def _goal_alone(self, running: Running) -> Goal | None:
-        """A goal for an episode that was to get it from a teacher, and did not."""
-        teachers = {mode.teacher for mode in self.strategy.modes.values() if mode.teacher}
-        now = Situation(running.episode.id, teachers, running.episode.context)
-        return self.strategy.choose(now, running.episode.rng).goal
-
-    def _shown(self, demonstration: Demonstration, chosen: Goal | None) -> Goal | None:
-        """The demonstrated outcome as a goal, of the kind chosen if it has that; else None."""
-        outcomes, goals = self.task.outcome_spaces, self.task.goal_spaces
-        kinds = [
-            kind
-            for kind, point in demonstration.outcome.items()
-            if goals.get(kind) is outcomes[kind] and goals[kind].contains(point)
-        ]
-        if not kinds:
-            return None
-        kind = chosen.kind if chosen is not None and chosen.kind in kinds else kinds[0]
-        return Goal(kind, demonstration.outcome[kind])
-
-    def resumed(self, running: Running, context: Any) -> Running:
-        """An open episode in the present context; its explorer is told if that has changed."""
-        if self.task.context_space is not None:
-            space = self.task.context_space
-            if space.pack(context) != space.pack(running.episode.context):
-                running.episode.context = context
-                if running.live:
-                    self._rebase(running.episode)
-                    running.mode.explorer.moved(running.episode)
-        return running
-
-    def _rebase(self, episode: Episode) -> None:
-        """Count what was gained so far, and measure from the new context on.
-
-        Otherwise an episode would be credited with the luck of its contexts.
+        Returns:
+            What it said of each; None for each if it is to take them in one by one.
         """
-        if episode.goal is None or episode.before is None or episode.best is None:
-            return
-        episode.gained += episode.best - episode.before
-        competence = float(self.model.competence(episode.goal, episode.context))
-        episode.before = episode.best = competence
+        shown = None
+        if len(trials) > 1:
+            aimed = [running.live and running.episode.best is not None for running in some]
+            goals = [r.episode.goal if a else None for r, a in zip(some, aimed, strict=True)]
+            shown = learn_all(self.model, trials, goals, [r.episode.context for r in some])
+        return [None] * len(trials) if shown is None else [Remembered(one) for one in shown]
 
-    def proposed(self, running: Running) -> Any:
-        """The policy that an episode's explorer proposes next; None if it must ask first."""
-        if running.must_ask:
-            return None
-        return self.sealed(running.mode.explorer.propose([running.episode])[0])
+    def learn_trial(
+        self, plan: Plan, running: Running, trial: Trial, remembered: Remembered | None = None
+    ) -> Report:
+        """Learn from a trial of an open episode.
 
-    def sealed(self, policy: Any) -> Any:
-        """A proposed policy, checked, and such that no world can change what is remembered."""
-        point = self.task.check_policy(policy)
-        if isinstance(self.task.policy_space, Box):  # whose points are arrays, checked in a copy
-            point.setflags(write=False)
-        return point
-
-    def all_sealed(self, policies: Sequence[Any]) -> list[Any]:
-        """As `sealed` for each of several policies; those of a box all at once."""
-        space = self.task.policy_space
-        if isinstance(space, Box):
-            try:
-                points = np.array(policies, dtype=np.float64)
-            except (TypeError, ValueError):  # what is malformed is named one by one, below
-                points = np.empty(0)
-            if points.shape[1:] == space.low.shape and space.contains(points):
-                points.setflags(write=False)
-                return list(points)
-        return [self.sealed(policy) for policy in policies]
-
-    def issue(self, running: Running, policy: Any) -> Plan:
-        """Give out an episode's next plan: this policy, or a request if it must ask."""
-        teacher = running.mode.teacher if running.must_ask else None
-        plan = self.ledger.give_out(running, policy, teacher)
-        if self.record is not None:
-            self._emit(Planned(plan))
-        return plan
-
-    def learn_answer(
-        self, plan: Plan, running: Running, demonstration: Demonstration | None
-    ) -> None:
-        """Take up a demonstration, or the goal chosen if there is none."""
-        status = ledger.EXPIRED if demonstration is None else ledger.ANSWERED
-        self.ledger.resolve(plan, status)
-        if demonstration is None:
-            running.mode = self.strategy.alone
-        running.episode.demonstration = demonstration
-        self._take_up(running)
-
-    def learn_trial(self, plan: Plan, running: Running, trial: Trial) -> Report:
-        """Learn from a trial of an open episode."""
+        Args:
+            plan: The plan that was tried.
+            running: Its episode.
+            trial: What came of it.
+            remembered: What the model has said of it, if it has taken it in already.
+        """
         self.ledger.resolve(plan, ledger.TOLD)
-        self.model.update(trial)
+        if remembered is None:
+            self.model.update(trial)
         self.movements += 1
         episode, goal = running.episode, running.episode.goal
         episode.movements += 1
         shown: float | None = None
-        if running.live and goal is not None and episode.best is not None:
-            shown = self.model.shown_by(trial, goal, episode.context)
+        if goal is not None and episode.best is not None and running.live:
+            if remembered is None:
+                shown = self.model.shown_by(trial, goal, episode.context)
+            else:
+                shown = remembered.shown
             if shown is None:
                 episode.best = float(self.model.competence(goal, episode.context))
             elif shown > episode.best:
@@ -252,7 +97,7 @@ class Transitions:
     def learn_end(self, plan: Plan, running: Running, how: Ending) -> None:
         """Resolve a plan that has no outcome."""
         if plan.request is not None:
-            self.learn_answer(plan, running, None)
+            self.learn_answers([plan], [running], [None])
             self.ledger.make_idle(running)
             return
         self.ledger.resolve(plan, _STATUS[how])
@@ -323,13 +168,6 @@ class Transitions:
         if self._unwritten is not None:
             error, self._unwritten = self._unwritten, None
             raise error
-
-    def _emit(self, event: Event) -> None:
-        if self.record is not None:
-            try:
-                self.record(event)
-            except UnwrittenError as error:  # kept by the journal: what it says has happened
-                self._unwritten = self._unwritten or error
 
 
 _STATUS = {

@@ -71,6 +71,9 @@ def test_a_run_says_its_errors_its_choices_and_what_to_do_next(sgim, tmp_path) -
         (["throwing", "--learner", "random", "--seed", "7"], "throwing-random-7"),
         (["throwing", "--configuration", "thesis"], "throwing-sgim-acts-thesis-0"),
         (["arm"], "arm-sagg-riac-0"),
+        (["throwing", "--teacher", "none"], "throwing-sagg-riac-0"),
+        (["vocal", "--batch", "10"], "vocal-sagg-riac-gmm-0"),
+        (["vocal", "--teacher", "3"], "vocal-sgim-acts-gmm-3-0"),
     ],
 )
 def test_a_journal_is_named_after_its_run(sgim, tmp_path, words: list[str], name: str) -> None:

@@ -2,20 +2,9 @@
 
 from pathlib import Path
 
-import pytest
-
-from sgim.cli.commands.sweep import parse_seeds
 from sgim.runs.summary import read_run
 
 SWEEP = ["sweep", "throwing", "--learners", "random,mimicry:T2", "--movements", "60"]
-
-
-@pytest.mark.parametrize(
-    ("text", "seeds"),
-    [("0-3", [0, 1, 2, 3]), ("0,3,5-7", [0, 3, 5, 6, 7]), ("4", [4]), ("2, 2-3", [2, 3])],
-)
-def test_seeds_are_numbers_and_ranges(text: str, seeds: list[int]) -> None:
-    assert parse_seeds(text) == seeds
 
 
 def test_a_sweep_makes_a_journal_a_run_and_repeats_none(sgim, tmp_path) -> None:
@@ -41,3 +30,18 @@ def test_a_run_that_fails_is_reported_and_does_not_stop_the_others(sgim, tmp_pat
     assert "Traceback" in said.err
     assert "is not a journal" in said.err
     assert read_run(tmp_path / "out" / "throwing-mimicry-T2-1.sgim").finished
+
+
+def test_a_file_is_swept_and_the_command_line_has_the_last_word(sgim, tmp_path) -> None:
+    lines = ["experiments = 'throwing'", "learners = 'random'", "seeds = 0", "movements = 40"]
+    Path(tmp_path, "mine.toml").write_text("\n".join([*lines, "out = 'here'", "jobs = 1"]))
+    assert "1 of 1 runs are finished: here\n" in sgim("sweep", "mine.toml").out
+    assert "1 of 1 runs are finished: there\n" in sgim("sweep", "mine.toml", "--out", "there").out
+    for words, hint in (
+        (["mine.toml", "--seeds", "1"], "--seeds: what to run is said by mine.toml"),
+        (["throwing"], "say which --learners and --seeds"),
+        (["mine.toml", "--scheduler", "tcp://a:1"], "--scheduler goes with --backend dask"),
+    ):
+        said = sgim("sweep", *words)
+        assert said.code == 2
+        assert hint in said.err

@@ -20,6 +20,7 @@ from sgim.configurations import CONFIGURATIONS, Configuration
 from sgim.environments import AirHockey
 from sgim.errors import JournalError
 from sgim.events import Answered, Ended, Opened, Told
+from sgim.mixture_settings import MixtureSettings
 from sgim.outcome.expected_gain import ExpectedGain
 from sgim.outcome.region_tree import RegionTree
 from sgim.policy.answering import KernelMean, Reliable
@@ -75,6 +76,13 @@ def test_a_learner_composed_by_hand_learns_in_all_its_modes() -> None:
     sgim.Run(learner, world, {"Ada": names["LeftSider"]()}).go(500)
     assert {event.mode for event in opened} == {"autonomous", "mimic Ada", "emulate Ada"}
     assert learner.solve("puck", [0.4, 0.6]).cost < 0.1
+
+
+def test_a_world_from_gymnasium_is_learned(tmp_path: Path) -> None:
+    lines = output(str(EXAMPLES / "gymnasium_world.py"), cwd=tmp_path).splitlines()
+    first, *_, last = [float(line.split()[-1]) for line in lines if "mean error" in line]
+    assert first == 1.0
+    assert last < 0.06
 
 
 def test_a_world_with_contexts_is_learned(tmp_path: Path) -> None:
@@ -289,13 +297,17 @@ def table(page: str, first_cell: str) -> dict[str, list[str]]:
 
 @pytest.mark.parametrize("name", list(CONFIGURATIONS))
 def test_the_page_of_configurations_has_every_constant_as_it_is(name: str) -> None:
-    rows = table("docs/configurations.md", "constant")
-    names = [field.name for field in fields(Configuration)]
-    assert list(rows) == names[1:]
+    of_mixtures = [field.name for field in fields(MixtureSettings)]
+    apart = {"name", *of_mixtures}
+    others = [field.name for field in fields(Configuration) if field.name not in apart]
     column = list(CONFIGURATIONS).index(name)
-    configuration = CONFIGURATIONS[name]
-    shown = {constant: cells[column] for constant, cells in rows.items()}
-    assert shown == {constant: str(getattr(configuration, constant)) for constant in names[1:]}
+    for first_cell, names in (("constant", others), ("constant of mixtures", of_mixtures)):
+        rows = table("docs/configurations.md", first_cell)
+        assert list(rows) == names
+        shown = {constant: cells[column] for constant, cells in rows.items()}
+        assert shown == {
+            constant: str(getattr(CONFIGURATIONS[name], constant)) for constant in names
+        }
 
 
 PARTS = (

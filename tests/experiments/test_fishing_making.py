@@ -1,11 +1,12 @@
 import numpy as np
 import pytest
 
+from sgim.environments.fishing.floor import DURATION
 from sgim.errors import SgimError
 from sgim.experiments import experiment
 from sgim.experiments.even_spread import by_tile, mean_miss
 from sgim.experiments.make_fishing_goals import tiled
-from sgim.experiments.make_fishing_kinaesthetic import REACH, search
+from sgim.experiments.make_fishing_kinaesthetic import REACH, floor_search, rod_search, search
 from sgim.experiments.make_fishing_learned import choose
 from sgim.experiments.make_fishing_pool import Pool, explore, read_pool, write_pool
 
@@ -52,10 +53,18 @@ def test_a_movement_that_fails_or_does_not_land_misses_by_one_metre() -> None:
 
 
 def test_the_search_finds_movements_where_few_land() -> None:
-    found = search(np.random.default_rng(0), 60)
+    found = search(rod_search(), np.random.default_rng(3), 60)
     assert len(found) > 10
     assert all(np.abs(candidate.landing).max() < 1 for candidate in found)
     assert all(np.abs(candidate.end).max() <= REACH for candidate in found)
+
+
+def test_the_search_of_the_floor_finds_balls_that_rest_in_view() -> None:
+    found = search(floor_search(), np.random.default_rng(0), 30)
+    assert found
+    assert all((candidate.landing >= 0).all() for candidate in found)
+    assert all((candidate.landing <= 1).all() for candidate in found)
+    assert all(candidate.duration == DURATION for candidate in found)
 
 
 def test_the_learned_demonstrations_are_one_a_tile() -> None:

@@ -1,16 +1,18 @@
 """Figures have the panels, lines and labels that they promise."""
 
 import io
+import itertools
 import subprocess
 import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from sgim.errors import SgimError
 from sgim.events import Opened, Planned, Told
 from sgim.experiments import experiment
-from sgim.figures import choices, error_curves, explored
+from sgim.figures import choices, choices_by_kind, error_curves, explored, performance_profiles
 from sgim.figures.style import mode_colours
 from sgim.records import Plan
 from sgim.runs import Journal
@@ -106,6 +108,31 @@ def test_choices_have_a_row_of_two_panels_for_each_learner(runs: list[Path]) -> 
     assert legends[1] == ["place", "throw"]
     assert "no goals" in [text.get_text() for axes in figure.axes for text in axes.texts]
     assert saved(figure)
+
+
+def test_profiles_rise_from_none_to_all_of_a_learners_runs(runs: list[Path]) -> None:
+    figure = performance_profiles(runs)
+    assert [axes.get_title() for axes in figure.axes][:2] == ["throw", "place"]
+    for axes in figure.axes:
+        assert axes.get_xlabel() == "error at most\n(share of the outcome space)"
+        for line in axes.lines:
+            heights = np.asarray(line.get_ydata(), dtype=float)
+            assert (np.diff(heights) >= 0).all()
+            assert heights[-1] == 1
+            assert {*np.round(3 * heights, 9)} <= {0, 1, 2, 3}
+    assert saved(figure)
+
+
+@pytest.mark.parametrize(
+    "draw", [error_curves, performance_profiles, choices, choices_by_kind], ids=lambda d: d.__name__
+)
+def test_panels_can_be_one_below_the_other(runs: list[Path], draw) -> None:
+    wide, narrow = draw(runs), draw(runs, columns=1)
+    assert [axes.get_title() for axes in narrow.axes] == [axes.get_title() for axes in wide.axes]
+    saved(narrow)
+    panels = [axes.get_position() for axes in narrow.axes if axes.axison]
+    assert all(above.y0 > below.y0 for above, below in itertools.pairwise(panels))
+    assert narrow.get_figwidth() < 0.7 * wide.get_figwidth()
 
 
 def test_explored_scatters_two_coordinates_and_counts_one(runs: list[Path]) -> None:

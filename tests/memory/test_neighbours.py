@@ -79,6 +79,8 @@ def test_a_batch_equals_single_queries_to_the_last_bit(data):
     points = data.draw(points_of(dimension))
     neighbours = structure_with(points, buffer_size=data.draw(st.integers(1, 20)))
     queries, k = data.draw(points_of(dimension, most=5)), data.draw(st.integers(1, 50))
+    if len(queries) and data.draw(st.booleans()):  # many are looked for together
+        queries = np.resize(queries, (7, dimension))
     distances, indices = neighbours.query_batch(queries, k)
     assert distances.shape == indices.shape == (len(queries), min(k, len(points)))
     for i, query in enumerate(queries):

@@ -18,6 +18,11 @@ MALLET = ViaPoints(
     Box([-1, -1], [1, 1], names=["x", "y"], unit="m"),
     Intervals(points=5, shortest=0.05, longest=0.5, sharpness=16.0),
 )
+FIXED = ViaPoints(
+    Box([-2, -2], [2, 2], names=["shoulder", "elbow"], unit="rad"),
+    EvenlySpaced(points=9, shortest=1.0, longest=1.0, width=1 / 16),
+    scaled=True,
+)
 PRIMITIVES = {"arm": ARM, "mallet": MALLET}
 BOTH = pytest.mark.parametrize("primitive", PRIMITIVES.values(), ids=PRIMITIVES.keys())
 
@@ -223,6 +228,17 @@ def test_a_trajectory_that_cannot_be_made_is_refused(
 def test_policies_of_another_shape_are_refused(policies: FloatArray) -> None:
     with pytest.raises(SpaceError, match=r"expected \(n, 14\)"):
         MALLET.positions(policies, [0.0])
+
+
+def test_a_fixed_duration_is_no_parameter() -> None:
+    (policy,) = sample(FIXED)
+    assert policy.shape == (18,)
+    assert FIXED.durations(policy[None]) == 1.0
+    fitted, residual = FIXED.fit(FIXED.trajectory(policy, rate=50))
+    assert residual < 1e-6
+    np.testing.assert_allclose(fitted, policy, atol=1e-4)
+    with pytest.raises(SpaceError, match="from 1 to 1 s"):
+        FIXED.fit(Trajectory([0.0, 1.5], [[0, 0], [1, 1]], FIXED.joints))
 
 
 @pytest.mark.parametrize(

@@ -2,11 +2,14 @@
 
 import io
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 from sgim.experiments import experiment
-from sgim.runs.progress import ProgressBar, ProgressLines, SweepProgress, duration, progress
+from sgim.runs.progress import ProgressBar, ProgressLines, duration, progress
+from sgim.runs.sweep import SweptRun
+from sgim.runs.sweep_progress import SweepProgress
 
 THROWING = experiment("throwing")
 
@@ -56,12 +59,38 @@ def test_lines_are_few(monkeypatch: pytest.MonkeyPatch) -> None:
     assert "total 1" in lines[1]
 
 
+def swept(status: Any) -> SweptRun:
+    return SweptRun(Path("a.sgim"), "random", 0, status)
+
+
 def test_lines_of_a_sweep_are_few() -> None:
     stream = io.StringIO()
     with SweepProgress("throwing", 3, stream) as shown:
         for _ in range(3):
-            shown.ended()
+            shown.ended(swept("finished"))
     assert stream.getvalue() == "throwing: 3 runs\n"
+
+
+def test_a_sweep_shows_runs_done_failed_and_the_time_left(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(SweepProgress, "seconds", -1.0)
+    stream = io.StringIO()
+    with SweepProgress("throwing", 4, stream) as shown:
+        for status in ("known", "finished", "failed", "finished"):
+            shown.ended(swept(status))
+    first, second, third, last = stream.getvalue().splitlines()[1:]
+    assert first == "1 of 4 runs done"
+    assert second == "2 of 4 runs done, 0.0 s left"
+    assert third == "2 of 4 runs done, 1 failed, 0.0 s left"
+    assert last == "3 of 4 runs done, 1 failed"
+
+
+def test_a_sweep_on_a_terminal_has_one_bar() -> None:
+    terminal = Terminal()
+    with SweepProgress("a title", 2, terminal) as shown:
+        shown.ended(swept("failed"))
+        shown.ended(swept("finished"))
+    assert "a title" in terminal.getvalue()
+    assert "1 of 2 runs done, 1 failed" in terminal.getvalue()
 
 
 @pytest.mark.parametrize(

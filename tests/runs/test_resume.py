@@ -110,6 +110,30 @@ def test_every_learner_goes_on_as_if_it_had_not_been_cut_off(
         assert rows(part) == rows(whole), f"cut after event {place}"
 
 
+MIXTURES = "rest_trials=40,mixture_every=40,mixture_components=4,interest_every=30"
+
+
+@pytest.mark.parametrize("batch", [1, 40])
+@pytest.mark.parametrize("name", ["sagg-riac-gmm", "sgim-acts-gmm", "sagg-riac", "sgim-acts"])
+def test_learners_with_mixtures_go_on_in_the_middle_of_a_batch_and_of_a_refit(
+    tmp_path: Path, name: str, batch: int
+) -> None:
+    interest = "mixture" if batch == 1 else "alp-gmm"
+    configuration = f"modern,{MIXTURES}"
+    if not name.endswith("gmm"):
+        configuration += f",interest={interest}"
+    whole = tmp_path / "whole.sgim"
+    with throwing_run(whole, name, batch=batch, configuration=configuration) as run:
+        run.go(320)
+    places = whole_outcomes(whole)
+    for place in random.Random(0).sample(places, 8) + places[-1:]:
+        part = tmp_path / f"{place}.sgim"
+        cut(whole, part, place)
+        with throwing_run(part, name, batch=batch, configuration=configuration) as run:
+            run.go(320)
+        assert rows(part) == rows(whole), f"cut after event {place}"
+
+
 def test_a_noisy_world_with_contexts_resumes_exactly(tmp_path: Path) -> None:
     world = PlanarArm(3, vary_start=True)
 

@@ -5,7 +5,12 @@ import pytest
 from scipy.stats import bootstrap
 
 from sgim.statistics import bootstrap as module
-from sgim.statistics import bootstrap_interval, interquartile_estimate, interquartile_mean
+from sgim.statistics import (
+    bootstrap_interval,
+    interquartile_estimate,
+    interquartile_mean,
+    profile_estimate,
+)
 
 
 def mean(strata):
@@ -76,6 +81,15 @@ def test_curves_have_an_interval_at_each_point_however_they_are_cut_up(monkeypat
     monkeypatch.setattr(module, "_NUMBERS_AT_ONCE", 999)
     parts = interquartile_estimate(runs, np.random.default_rng(1))
     np.testing.assert_array_equal(parts.low, whole.low)
+
+
+def test_the_interval_of_a_profile_is_that_of_a_share() -> None:
+    errors = np.array([0.0] * 12 + [1.0] * 18)
+    found = profile_estimate(errors, np.array([-1, 0.5, 1.0]), np.random.default_rng(0))
+    np.testing.assert_array_equal(found.value, [0, 0.4, 1])
+    # 95 % of the draws of 30 with a chance of .4 are from 7 to 17.
+    np.testing.assert_allclose(found.low, [0, 7 / 30, 1], atol=1.01 / 30)
+    np.testing.assert_allclose(found.high, [0, 17 / 30, 1], atol=1.01 / 30)
 
 
 def test_the_same_generator_gives_the_same_interval() -> None:

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from scipy.stats import trim_mean
+from scipy.stats import ecdf, trim_mean
 
 from sgim.errors import SgimError
 from sgim.statistics import area_under_curve, interquartile_mean, performance_profile
@@ -56,3 +56,24 @@ def test_a_profile_is_the_share_of_runs_at_or_under_each_threshold() -> None:
     for axis in (1, -1):
         profiles = performance_profile(table, [0.2, 1], axis=axis)
         np.testing.assert_array_equal(profiles, [[0.75, 1], [0, 1]])
+
+
+def test_the_area_of_a_fine_curve_is_its_integral() -> None:
+    x = np.linspace(0, 2, 2001)
+    np.testing.assert_allclose(area_under_curve(x, np.exp(-x)), (1 - np.exp(-2)) / 2, rtol=1e-6)
+    uneven = np.geomspace(1, 10, 3001)
+    np.testing.assert_allclose(area_under_curve(uneven, 1 / uneven), np.log(10) / 9, rtol=1e-6)
+
+
+def test_a_profile_is_scipys_empirical_distribution() -> None:
+    errors = np.random.default_rng(0).lognormal(size=23)
+    thresholds = np.linspace(0, 4, 50)
+    expected = ecdf(errors).cdf.evaluate(thresholds)
+    np.testing.assert_allclose(performance_profile(errors, thresholds), expected)
+
+
+def test_the_median_is_where_a_profile_passes_half() -> None:
+    errors = np.random.default_rng(1).normal(5, 1, 41)
+    at = np.median(errors)
+    before, there = performance_profile(errors, [at - 1e-9, at])
+    assert before < 0.5 < there

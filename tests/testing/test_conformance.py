@@ -16,15 +16,20 @@ from sgim.environments import (
     throwing_teachers,
 )
 from sgim.memory import Memory
+from sgim.outcome.absolute_progress import AbsoluteProgress
 from sgim.outcome.expected_gain import ExpectedGain
 from sgim.outcome.interest import UniformGoals
+from sgim.outcome.mixture_interest import MixtureInterest
 from sgim.outcome.progress import CompetenceChange, InterestMeasure, MeanProgress
 from sgim.outcome.region_tree import RegionTree
 from sgim.outcome.table import InterestTable
 from sgim.policy.explorer import Explorer
 from sgim.policy.local_search import LocalSearch
+from sgim.policy.mixture_model import Learning, MixtureModel
+from sgim.policy.mixture_search import AroundRest, MixtureSearch
 from sgim.policy.model import NearestModel
 from sgim.policy.nelder_mead import NelderMeadSearch
+from sgim.policy.population import CovarianceAdaptation, PathIntegral, PopulationSearch
 from sgim.policy.simple import Mimicry, NoisyNearest, RandomPolicies
 from sgim.policy.ways import answering_of
 from sgim.spaces import Box, Choices, Space
@@ -134,6 +139,34 @@ def test_every_map_of_expected_gain_passes(task: Task, goals: int) -> None:
     check_interest_map(make, task.goal_spaces, list(MODES), context_space=task.context_space)
 
 
+@pytest.mark.parametrize("task", VECTOR_TASKS.values(), ids=VECTOR_TASKS.keys())
+def test_every_map_of_mixtures_passes(task: Task) -> None:
+    def by_covariance() -> MixtureInterest:
+        return MixtureInterest(
+            task.goal_spaces,
+            MODES,
+            Streams(0),
+            context_space=task.context_space,
+            window=60,
+            every=30,
+            uniform_share=0.1,
+            random_modes=0.1,
+        )
+
+    def by_absolute_progress() -> AbsoluteProgress:
+        return AbsoluteProgress(
+            task.goal_spaces,
+            MODES,
+            Streams(0),
+            context_space=task.context_space,
+            window=60,
+            every=30,
+        )
+
+    for make in (by_covariance, by_absolute_progress):
+        check_interest_map(make, task.goal_spaces, list(MODES), context_space=task.context_space)
+
+
 @NAMED
 def test_uniform_goals_pass(task: Task) -> None:
     spaces = task.goal_spaces
@@ -158,10 +191,26 @@ def test_the_nearest_model_passes_with_the_ways_that_trust_a_deterministic_world
     check_model(lambda: NearestModel(Memory(task), answering_of(way)), task)
 
 
+@pytest.mark.parametrize("task", VECTOR_TASKS.values(), ids=VECTOR_TASKS.keys())
+def test_the_mixture_model_passes(task: Task) -> None:
+    learning = Learning(components=4, every=20, starving=0.01)
+
+    def make() -> MixtureModel:
+        return MixtureModel(task, Streams(0), learning, nearest=NearestModel(Memory(task)))
+
+    def search(model: MixtureModel) -> MixtureSearch:
+        return MixtureSearch(model, AroundRest(task, 0.1))
+
+    check_model(make, task)
+    check_explorer(search, task, make_model=make)
+
+
 EXPLORERS: Mapping[str, Callable[[NearestModel], Explorer]] = {
     "Nelder-Mead": NelderMeadSearch,
     "local search": LocalSearch,
     "local search, large variations": lambda model: LocalSearch(model, variation=(1.0, 30.0)),
+    "CMA-ES": lambda model: PopulationSearch(model, CovarianceAdaptation),
+    "PI2": lambda model: PopulationSearch(model, PathIntegral),
     "noise around the nearest": NoisyNearest,
     "noise from the first trial on": lambda model: NoisyNearest(model, bootstrap=0),
     "mimicry": lambda model: Mimicry(model.memory.task.policy_space, 0.3),

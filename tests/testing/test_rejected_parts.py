@@ -197,6 +197,21 @@ def proposing(function: Callable[[list[Episode], list[Any]], Any]) -> Callable[[
     return explorer(propose=lambda s, e: function(e, RandomPolicies.propose(s, e)))
 
 
+def counting_when_told(model: NearestModel) -> RandomPolicies:
+    """One that looks at the model when it hears of a trial."""
+
+    class Looking(RandomPolicies):
+        def learn(self, episode: Episode, trial: Any, competence: float | None) -> None:
+            episode.state = len(model.memory)
+
+        def propose(self, episodes: Any) -> list[Any]:
+            known = [1 + (episode.state or 0) for episode in episodes]
+            policies = super().propose(episodes)
+            return [policy / n for policy, n in zip(policies, known, strict=True)]
+
+    return Looking(PLANE.policy_space)
+
+
 EXPLORERS = {
     "out of bounds": (proposing(lambda e, b: [p + 1 for p in b]), "within the bounds"),
     "chance of its own": (proposing(lambda e, b: [CHANCE.random(2) for _ in b]), "episode.rng"),
@@ -213,6 +228,7 @@ EXPLORERS = {
         ),
         "on the others",
     ),
+    "asks the model when told": (counting_when_told, "already knows the other trials"),
     "fails to begin": (explorer(begin=lambda s, e: 1 / 0), "begin prepares"),
     "fails when refused": (explorer(refuse=lambda s, e: 1 / 0), "must not be executed"),
     "fails on nothing produced": (

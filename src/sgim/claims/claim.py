@@ -7,8 +7,11 @@ from dataclasses import dataclass
 from typing import Any, Literal
 
 from sgim.claims.components import Component, Finding
-from sgim.claims.world import World
+from sgim.claims.measures import Error, learners_of
+from sgim.claims.world import ReadRun, World, apart
 from sgim.runs.contrasts import LEVEL
+from sgim.runs.summary import read_run
+from sgim.runs.sweep_run import seed_words
 from sgim.statistics import holm, least_pairs
 from sgim.streams import Streams
 
@@ -49,12 +52,14 @@ class Chapter:
         title: What it is about, and where the thesis has it.
         experiment: Name of the experiment; its variants count as plausible worlds.
         claims: The claims.
+        read_chooser: How a run is read whose choices the claims are about.
     """
 
     name: str
     title: str
     experiment: str
     claims: tuple[Claim, ...]
+    read_chooser: ReadRun = read_run
 
     @property
     def learners(self) -> list[str]:
@@ -62,11 +67,28 @@ class Chapter:
         return list(dict.fromkeys(x for claim in self.claims for x in claim.learners))
 
     @property
-    def choosers(self) -> set[str]:
-        """Whose choices its claims are about."""
+    def sweeps(self) -> dict[tuple[str, str], list[str]]:
+        """Experiment, and settings that differ from the configuration → whose runs are needed."""
+        found: dict[tuple[str, str], list[str]] = {}
+        for learner in self.learners:
+            name, experiment, settings = apart(learner)
+            found.setdefault((experiment or self.experiment, settings), []).append(name)
+        return found
+
+    @property
+    def moments(self) -> set[int]:
+        """Evaluations that its claims name, in movements."""
         components = (part for claim in self.claims for part in claim.components)
         measures = (m for part in components for m in (part.one, part.other))
-        return {m.learner for m in measures if not isinstance(m, float) and m.of_choices}
+        return {m.at for m in measures if isinstance(m, Error) and m.at is not None}
+
+    @property
+    def choosers(self) -> set[str]:
+        """Whose choices, or whatever else is not in evaluations, its claims are about."""
+        components = (part for claim in self.claims for part in claim.components)
+        measures = (m for part in components for m in (part.one, part.other))
+        chosen = [m for m in measures if not isinstance(m, float) and m.of_choices]
+        return {apart(name)[0] for measure in chosen for name in learners_of(measure)}
 
 
 @dataclass(frozen=True)
@@ -101,6 +123,13 @@ class Verdict:
         return "reproduced" if self.p_holm < LEVEL else "not shown"
 
     @property
+    def word_alone(self) -> Word:
+        """The verdict if this were the only claim: by its p-value before correction."""
+        if self.p is None or self.word == "contradicted":
+            return self.word
+        return "reproduced" if self.p < LEVEL else "not shown"
+
+    @property
     def deciding(self) -> Finding:
         """The component that decides: the one most clearly against it, else the least clear."""
         against = [f for f in self.findings if f.direction < 0]
@@ -108,20 +137,29 @@ class Verdict:
             return min(against, key=lambda f: f.direction)
         return max(self.findings, key=lambda f: (f.p_of_claim, -f.direction, f.effect.value))
 
-    def as_json(self) -> dict[str, Any]:
-        """Everything, JSON-compatible."""
-        return {
+    def as_json(self, *, details: bool) -> dict[str, Any]:
+        """The verdict and the test that decides it, JSON-compatible.
+
+        Args:
+            details: Whether to add sentence and reading, and all tests with the numbers of each
+                run.
+        """
+        found: dict[str, Any] = {
             "id": self.claim.id,
-            "sentence": self.claim.sentence,
-            "reading": self.claim.reading,
             "by_construction": self.claim.by_construction,
             "verdict": self.word,
-            "needs": list(self.needs),
-            "p": self.p,
             "p_holm": self.p_holm,
-            "deciding": str(self.deciding.component) if self.findings else None,
-            "components": [finding.as_json() for finding in self.findings],
+            "needs": list(self.needs),
+            "deciding": self.deciding.as_json(numbers=False) if self.findings else None,
         }
+        if details:
+            found |= {
+                "sentence": self.claim.sentence,
+                "reading": self.claim.reading,
+                "p": self.p,
+                "components": [finding.as_json(numbers=True) for finding in self.findings],
+            }
+        return found
 
 
 @dataclass(frozen=True)
@@ -145,17 +183,18 @@ class Verdicts:
         """The verdicts by the claim's id."""
         return {verdict.claim.id: verdict for verdict in self.verdicts}
 
-    def as_json(self) -> dict[str, Any]:
-        """Everything, JSON-compatible."""
+    def as_json(self, *, details: bool) -> dict[str, Any]:
+        """Verdict by verdict, JSON-compatible; with details, also all tests and their numbers."""
         return {
             "chapter": self.chapter.name,
             "experiment": self.world.experiment,
             "configuration": self.world.configuration,
             "at": self.world.movements,
             "learners": {
-                name: [run.seed for run in runs] for name, runs in self.world.groups.items()
+                name: seed_words([run.seed for run in runs if run.seed is not None])
+                for name, runs in self.world.groups.items()
             },
-            "claims": [verdict.as_json() for verdict in self.verdicts],
+            "claims": [verdict.as_json(details=details) for verdict in self.verdicts],
             "notes": list(self.notes),
         }
 
@@ -171,7 +210,7 @@ def decide(chapter: Chapter, world: World, seed: int = 0) -> Verdicts:
         seed: Of the bootstrap; the intervals are a function of it and of the runs.
     """
     streams, notes = Streams(seed), list(world.notes)
-    needs = [tuple(x for x in claim.learners if x not in world.groups) for claim in chapter.claims]
+    needs = [tuple(x for x in claim.learners if not world.has(x)) for claim in chapter.claims]
     tested = [
         tuple(part.test(world, streams, notes) for part in claim.components) if not lacking else ()
         for claim, lacking in zip(chapter.claims, needs, strict=True)

@@ -7,7 +7,7 @@ from typing import Any, Literal
 
 import numpy as np
 
-from sgim.claims.measures import Measure, Unit
+from sgim.claims.measures import JointMeasure, Measure, Unit, learners_of
 from sgim.claims.world import World
 from sgim.runs.contrasts import common_seeds
 from sgim.spaces import FloatArray
@@ -24,12 +24,20 @@ from sgim.statistics import (
 )
 from sgim.streams import Streams
 
-Relation = Literal["lower", "not higher", "equal"]
+Measured = Measure | JointMeasure
 
-MARGINS: dict[Unit, float] = {"error": 0.2, "share": 0.1}
-"""By how much equal ones may differ: a share of the larger error; ten percentage points."""
+Relation = Literal["lower", "not higher", "equal", "reaches", "steadier"]
 
-_SIGNS: dict[Relation, str] = {"lower": "<", "not higher": "<≈", "equal": "≈"}
+MARGINS: dict[Unit, float] = {"error": 0.2, "count": 0.2, "share": 0.1}
+"""By how much equal ones may differ: a share of the larger one; ten percentage points."""
+
+_SIGNS: dict[Relation, str] = {
+    "lower": "<",
+    "not higher": "<≈",
+    "equal": "≈",
+    "reaches": "≲",
+    "steadier": "varies less than",
+}
 
 
 @dataclass(frozen=True)
@@ -39,15 +47,16 @@ class Component:
     Attributes:
         one: What is measured.
         relation: ``lower``; ``not higher``, which is lower or higher by less than the margin;
-            or ``equal``, within the margin.
+            ``equal``, within the margin; ``reaches``, where the interval of the ratio reaches
+            down to ``times``; or ``steadier``, nearer to its own median.
         other: What it is compared with: of another learner, another time of the same run, or a
             constant.
         times: By which the other is multiplied before: to be at most half of it is .5.
     """
 
-    one: Measure
+    one: Measured
     relation: Relation
-    other: Measure | float
+    other: Measured | float
     times: float = 1.0
 
     def __str__(self) -> str:
@@ -64,12 +73,13 @@ class Component:
     @property
     def learners(self) -> list[str]:
         """Whose runs it needs."""
-        return [m.learner for m in (self.one, self.other) if not isinstance(m, float)]
+        measures = (m for m in (self.one, self.other) if not isinstance(m, float))
+        return [learner for measure in measures for learner in learners_of(measure)]
 
     @property
     def margin(self) -> float | None:
         """The margin of the test; None if it has none."""
-        return None if self.relation == "lower" else MARGINS[self.one.unit]
+        return MARGINS[self.one.unit] if self.relation in ("not higher", "equal") else None
 
     def test(self, world: World, streams: Streams, notes: list[str]) -> Finding:
         """Decide it in a world that has its learners.
@@ -85,9 +95,16 @@ class Component:
             notes.append(f"{self}: no run has both, so nothing is shown")
             none = Estimate(*[np.array(np.nan)] * 3)
             return Finding(self, seeds, one, other, none, none, 1.0, 0.0)
+        if self.relation == "steadier":
+            one, other = (np.abs(values - np.median(values)) for values in (one, other))
+            seeds, paired = None, False
         rng = streams(f"bootstrap/claim/{self}")
         difference, ratio = contrast_estimates(one, other, rng, paired=paired)
-        p, direction = self._compare(one, self.times * other, paired)
+        if self.relation == "reaches":
+            reached = bool(ratio.low <= self.times)
+            p, direction = (0.0, 1.0) if reached else (1.0, -1.0)
+        else:
+            p, direction = self._compare(one, self.times * other, paired)
         return Finding(self, seeds, one, other, difference, ratio, p, direction)
 
     def _values(
@@ -116,10 +133,10 @@ class Component:
 
     def _compare(self, one: FloatArray, other: FloatArray, paired: bool) -> tuple[float, float]:
         """P-value, and how clearly the test points the way of the claim, from −1 to 1."""
-        if self.relation == "lower":
+        if self.relation in ("lower", "steadier"):
             p = signed_rank_p(one - other) if paired else mann_whitney_p(one, other)
             return p, _above(other, one, paired)
-        margin, relative = MARGINS[self.one.unit], self.one.unit == "error"
+        margin, relative = MARGINS[self.one.unit], self.one.unit != "share"
         below = _above(other, less_margin(one, margin, relative), paired)
         if self.relation == "not higher":
             return not_higher_p(one, other, margin, paired=paired, relative=relative), below
@@ -139,7 +156,8 @@ class Finding:
         other: Those they are compared with.
         difference: Of the interquartile means.
         ratio: Of the interquartile means; NaN where the other is 0.
-        p: P-value: two-sided for ``lower``, one-sided for the others, as is usual for margins.
+        p: P-value: two-sided for ``lower`` and ``steadier``, one-sided for margins, as is usual;
+            0 or 1 for ``reaches``, which is a rule and not a test.
         direction: Rank-biserial correlation in favour of the claim, from −1 to 1. It is that of
             the test, so that it cannot contradict the p-value.
     """
@@ -160,8 +178,8 @@ class Finding:
 
     @property
     def effect(self) -> Estimate:
-        """How large it is: the ratio of errors, or the difference of shares."""
-        return self.ratio if self.component.one.unit == "error" else self.difference
+        """How large it is: the ratio of errors or counts, or the difference of shares."""
+        return self.difference if self.component.one.unit == "share" else self.ratio
 
     @property
     def runs(self) -> str:
@@ -172,39 +190,59 @@ class Finding:
             return f"{len(self.one)}, {len(self.other)}"
         return f"{len(self.one)} pairs"
 
-    def as_json(self) -> dict[str, Any]:
-        """Everything, JSON-compatible."""
+    def as_json(self, *, numbers: bool) -> dict[str, Any]:
+        """What it says, JSON-compatible.
+
+        Args:
+            numbers: Whether to add the numbers of each run, and what the test is in detail.
+        """
         component = self.component
-        return {
+        found: dict[str, Any] = {
             "component": str(component),
-            "relation": component.relation,
-            "times": component.times,
-            "margin": component.margin,
             "unit": component.one.unit,
-            "learners": component.learners,
-            "seeds": self.seeds,
-            "one": self.one.tolist(),
-            "other": self.other.tolist(),
-            "difference": self.difference.as_json(),
-            "ratio": self.ratio.as_json(),
+            "effect": self.effect.as_json(),
             "p": self.p,
-            "direction": self.direction,
+            "n": self.runs,
         }
+        if numbers:
+            found |= {
+                "relation": component.relation,
+                "times": component.times,
+                "margin": component.margin,
+                "learners": component.learners,
+                "seeds": self.seeds,
+                "one": self.one.tolist(),
+                "other": self.other.tolist(),
+                "difference": self.difference.as_json(),
+                "ratio": self.ratio.as_json(),
+                "direction": self.direction,
+            }
+        return found
 
 
-def lower(one: Measure, other: Measure | float, times: float = 1.0) -> Component:
+def lower(one: Measured, other: Measured | float, times: float = 1.0) -> Component:
     """One is lower than so many times the other: Wilcoxon or Mann and Whitney, two-sided."""
     return Component(one, "lower", other, times)
 
 
-def not_higher(one: Measure, other: Measure | float) -> Component:
+def not_higher(one: Measured, other: Measured | float) -> Component:
     """One is lower than the other, or higher by less than the margin: one-sided."""
     return Component(one, "not higher", other)
 
 
-def equal(one: Measure, other: Measure | float) -> Component:
+def equal(one: Measured, other: Measured | float) -> Component:
     """The two differ by less than the margin: two one-sided tests."""
     return Component(one, "equal", other)
+
+
+def reaches(one: Measure, other: Measure, times: float) -> Component:
+    """The 95 % interval of their ratio reaches down to so much: a rule, beside a test."""
+    return Component(one, "reaches", other, times)
+
+
+def steadier(one: Measure, other: Measure) -> Component:
+    """One varies less between runs: distances to the own median, by Mann and Whitney."""
+    return Component(one, "steadier", other)
 
 
 def _above(high: FloatArray, low: FloatArray, paired: bool) -> float:

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from sgim.claims.claim import Chapter, Claim
 from sgim.claims.components import equal, lower
+from sgim.claims.controls import controls
 from sgim.claims.measures import ANY, Episodes, Error, Share
 
 SGIM_IM = "sgim-im"
 SGIM_D = "sgim-d"
-SGIM_ACTS = "sgim-acts"
 UNTAUGHT = ("sagg-riac", "random")
 
 ASKING = Episodes(teacher=ANY)
@@ -37,28 +37,7 @@ CLAIMS = (
         (lower(Share(SGIM_IM, ASKING, quarter=4), Share(SGIM_IM, ASKING, half=1)),),
         reading="The end is the last quarter.",
     ),
-    Claim(
-        "S1",
-        "Choosing pays: SGIM-ACTS beats uniformly random choice of mode and goal, and round-robin "
-        "over modes, at equal movements.",
-        tuple(lower(Error(SGIM_ACTS), Error(other)) for other in ("uniform-choice", "round-robin")),
-    ),
-    *(
-        Claim(
-            f"{name}{letter}",
-            f"{sentence} all demonstrations first, then {then}.",
-            tuple(lower(Error(learner), Error(control)) for learner in learners),
-            reading="At equal movements; all learners may ask the same teacher.",
-        )
-        for name, sentence, learners in (
-            ("S2", "SGIM-ACTS beats", (SGIM_ACTS,)),
-            ("S3", "SGIM-D and SGIM-IM beat", (SGIM_D, SGIM_IM)),
-        )
-        for letter, then, control in (
-            ("", "goal babbling over uniform goals", "demonstrations-first"),
-            ("b", "SAGG-RIAC", "demonstrations-first-sagg-riac"),
-        )
-    ),
+    *controls(),
 )
 """H1 to H4 are the thesis's; S1 to S3b are controls that its central idea needs."""
 

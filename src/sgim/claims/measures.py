@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import ClassVar, Literal, Protocol
+from typing import ClassVar, Literal, Protocol, runtime_checkable
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,10 +13,49 @@ from sgim.errors import SgimError
 from sgim.runs.measured import MeasuredRun
 from sgim.runs.summary import QUARTERS, Openings, RecordedRun
 
-Unit = Literal["error", "share"]
+Unit = Literal["error", "share", "count"]
 
 ANY = "any"
 """Instead of a teacher's name: whichever."""
+
+
+@runtime_checkable
+class JointMeasure(Protocol):
+    """A number of each seed, from the runs of several learners together.
+
+    It has what a `Measure` has, and ``values`` instead of ``of``.
+    """
+
+    @property
+    def learners(self) -> tuple[str, ...]:
+        """Whose runs it needs."""
+        ...
+
+    @property
+    def learner(self) -> str:
+        """All of them, in words."""
+        ...
+
+    @property
+    def what(self) -> str:
+        """See `Measure`."""
+        ...
+
+    @property
+    def unit(self) -> Unit:
+        """See `Measure`."""
+        ...
+
+    @property
+    def of_choices(self) -> bool:
+        """See `Measure`."""
+        ...
+
+    def values(
+        self, groups: Mapping[str, Sequence[MeasuredRun]], movements: int
+    ) -> dict[int | None, float]:
+        """The number of each seed; NaN if it has none."""
+        ...
 
 
 class Measure(Protocol):
@@ -34,17 +73,22 @@ class Measure(Protocol):
 
     @property
     def unit(self) -> Unit:
-        """``error``, or ``share`` of episodes: it decides the margin and how effects are shown."""
+        """``error``, ``share`` or ``count``: it decides the margin and how effects are shown."""
         ...
 
     @property
     def of_choices(self) -> bool:
-        """Whether it needs the episodes of a run, and not only its evaluations."""
+        """Whether it needs more of a run than its evaluations, such as its episodes."""
         ...
 
     def of(self, run: MeasuredRun, movements: int) -> float:
         """The number of a run after so many movements; NaN if it has none."""
         ...
+
+
+def learners_of(measure: Measure | JointMeasure) -> tuple[str, ...]:
+    """Whose runs a measure needs."""
+    return measure.learners if isinstance(measure, JointMeasure) else (measure.learner,)
 
 
 @dataclass(frozen=True)
@@ -206,3 +250,29 @@ class EvenShare:
                 f"{run.path} does not say which teachers {self.learner} has; run it again by name"
             )
         return self.count / (len(teachers) if self.of_teachers else 1 + 2 * len(teachers))
+
+
+@dataclass(frozen=True)
+class Constant:
+    """The same number for each run of a learner.
+
+    Attributes:
+        learner: Whose runs it stands beside.
+        value: The number.
+        unit: What it is.
+    """
+
+    learner: str
+    value: float
+    unit: Unit = "share"
+
+    of_choices: ClassVar[bool] = False
+
+    @property
+    def what(self) -> str:
+        """The number in writing."""
+        return f"{self.value:.3g}"
+
+    def of(self, run: MeasuredRun, movements: int) -> float:
+        """The number."""
+        return self.value

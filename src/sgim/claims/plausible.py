@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from typing import Any
 
 from sgim.claims.claim import Chapter, Claim, Verdicts, Word
-from sgim.claims.world import World
 
 
 @dataclass(frozen=True)
@@ -16,7 +15,8 @@ class Count:
 
     Attributes:
         claim: The claim.
-        words: Name of each world that has the runs it needs → the verdict there.
+        words: Name of each world that has the runs it needs → the verdict there, by p-values that
+            are not corrected for the other claims: a world by itself has few seeds.
     """
 
     claim: Claim
@@ -24,7 +24,7 @@ class Count:
 
     @property
     def holds(self) -> int:
-        """In how many it is reproduced."""
+        """In how many it holds."""
         return sum(word == "reproduced" for word in self.words.values())
 
     @property
@@ -73,24 +73,22 @@ class Plausible:
 
 
 def count_worlds(several: Sequence[Verdicts]) -> list[Plausible]:
-    """Count, for each chapter and base configuration that has several worlds."""
+    """Count, for each chapter and base configuration with claims decided in several worlds."""
     groups: dict[tuple[str, str], list[Verdicts]] = {}
     for verdicts in several:
+        if all(verdict.word == "no runs" for verdict in verdicts.verdicts):
+            continue
         groups.setdefault((verdicts.chapter.name, verdicts.world.base), []).append(verdicts)
     return [_count(members) for members in groups.values() if len(members) > 1]
 
 
-def world_name(world: World) -> str:
-    """The experiment, and what differs from the base configuration."""
-    return f"{world.experiment} with {world.settings}" if world.settings else world.experiment
-
-
 def _count(members: Sequence[Verdicts]) -> Plausible:
-    names = [world_name(verdicts.world) for verdicts in members]
+    names = [verdicts.world.name for verdicts in members]
     counts = []
     for i, claim in enumerate(members[0].chapter.claims):
         words = {
-            name: verdicts.verdicts[i].word for name, verdicts in zip(names, members, strict=True)
+            name: verdicts.verdicts[i].word_alone
+            for name, verdicts in zip(names, members, strict=True)
         }
         counts.append(Count(claim, {name: w for name, w in words.items() if w != "no runs"}))
     return Plausible(members[0].chapter, members[0].world.base, tuple(names), tuple(counts))

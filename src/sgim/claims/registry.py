@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from sgim.claims.claim import Chapter
+from sgim.claims.fishing import FISHING
 from sgim.claims.hockey import HOCKEY
+from sgim.claims.objects import OBJECTS
 from sgim.claims.throwing import THROWING
+from sgim.claims.vocal import VOCAL
 from sgim.errors import unknown
 
-CHAPTERS = {chapter.name: chapter for chapter in (THROWING, HOCKEY)}
+CHAPTERS = {chapter.name: chapter for chapter in (OBJECTS, THROWING, HOCKEY, FISHING, VOCAL)}
 
 
 def chapter(name: str) -> Chapter:

@@ -8,11 +8,19 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from sgim.claims.answered import Answered
 from sgim.claims.claim import Chapter, Verdicts, decide
 from sgim.claims.plausible import Plausible, count_worlds
-from sgim.claims.world import base_of, read_runs, worlds_of
+from sgim.claims.world import (
+    Chooser,
+    ReadRun,
+    base_of,
+    linked,
+    main_experiment,
+    read_runs,
+    worlds_of,
+)
 from sgim.errors import SgimError, unknown
-from sgim.experiments import EXPERIMENTS
 from sgim.runs.measured import MeasuredRun
 
 
@@ -32,11 +40,11 @@ class Report:
     seed: int
     notes: tuple[str, ...]
 
-    def as_json(self) -> dict[str, Any]:
-        """Everything, JSON-compatible."""
+    def as_json(self, *, details: bool) -> dict[str, Any]:
+        """Tables and counts, JSON-compatible; with details, also all tests and their numbers."""
         return {
             "seed": self.seed,
-            "tables": [verdicts.as_json() for verdicts in self.verdicts],
+            "tables": [verdicts.as_json(details=details) for verdicts in self.verdicts],
             "plausible": [plausible.as_json() for plausible in self.plausible],
             "notes": list(self.notes),
         }
@@ -48,6 +56,7 @@ def report(
     *,
     configuration: str | None = None,
     at: int | None = None,
+    by: str | None = None,
     seed: int = 0,
 ) -> Report:
     """Decide the claims of chapters by the runs of a sweep.
@@ -59,6 +68,8 @@ def report(
             settings; of all if None.
         at: The evaluation to compare at, in movements; the last that all runs of a world have if
             None.
+        by: Measure all runs again by this way of answering, and decide by that; by their own
+            evaluations if None. See `Answered`.
         seed: Of the bootstrap.
 
     Raises:
@@ -68,32 +79,37 @@ def report(
     """
     if seed < 0:
         raise SgimError(f"seed is {seed}, expected 0 or more")
-    choosers = {learner for chapter in chapters for learner in chapter.choosers}
+    choosers: dict[Chooser, ReadRun] = {
+        (chapter.experiment, learner): chapter.read_chooser
+        for chapter in chapters
+        for learner in chapter.choosers
+    }
     known = {chapter.experiment for chapter in chapters}
     runs = read_runs(paths, choosers)
-    about = [run for run in runs if _main(run) in known]
-    others = Counter(str(run.experiment) for run in runs if _main(run) not in known)
+    about = [run for run in runs if main_experiment(run) in known]
+    others = Counter(str(run.experiment) for run in runs if main_experiment(run) not in known)
     if not about:
         raise SgimError(
             f"there are only runs of {', '.join(sorted(others))}, and claims about "
             f"{', '.join(sorted(known))}; make some with sgim sweep"
         )
     kept = _configured(about, configuration)
+    if by is not None:
+        kept = _answered(kept, by, {moment for one in chapters for moment in one.moments}, at)
     tables: list[Verdicts] = []
     for chapter in chapters:
-        worlds = worlds_of([run for run in kept if _main(run) == chapter.experiment], at)
-        tables += [decide(chapter, world, seed) for world in worlds]
+        worlds = worlds_of([run for run in kept if main_experiment(run) == chapter.experiment], at)
+        several = [decide(chapter, w, seed) for w in linked(worlds, chapter.experiment)]
+        # Some worlds are there only to be compared with another.
+        decided = [verdicts for verdicts in several if any(v.findings for v in verdicts.verdicts)]
+        tables += decided or several
     notes = [
         f"no claims are about {name}: left out {count} run{'s' * (count > 1)}"
         for name, count in sorted(others.items())
     ]
+    if by is not None:
+        notes.append(f"errors are those of answering by {by}, measured again from the journals")
     return Report(tuple(tables), tuple(count_worlds(tables)), seed, tuple(notes))
-
-
-def _main(run: MeasuredRun) -> str | None:
-    """The experiment of a run, or the one of which it is a variant."""
-    experiment = EXPERIMENTS.get(run.experiment or "")
-    return experiment.variant_of or experiment.name if experiment else run.experiment
 
 
 def _configured(runs: Sequence[MeasuredRun], configuration: str | None) -> Sequence[MeasuredRun]:
@@ -106,3 +122,15 @@ def _configured(runs: Sequence[MeasuredRun], configuration: str | None) -> Seque
         known = {str(run.configuration) for run in runs}
         raise unknown("configuration of these runs", configuration, known)
     return kept
+
+
+def _answered(
+    runs: Sequence[MeasuredRun], way: str, moments: set[int], at: int | None
+) -> Sequence[MeasuredRun]:
+    """The runs measured again: at their last evaluation or ``at``, and at those claims name."""
+    measure = Answered(way).measure
+    return [
+        measure(run, {*moments, run.evaluations[-1].movements if at is None else at})
+        for run in runs
+        if run.evaluations
+    ]

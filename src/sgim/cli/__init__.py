@@ -25,9 +25,13 @@ COMMANDS = {
     "resume": "Go on with a run that was stopped, or extend one.",
     "show": "What a run did: errors and choices, also while it goes on.",
     "answer": "Ask what was learned: the policy for a goal.",
+    "watch": "A page that shows what runs do, also while they go on.",
+    "teach": "A page where you teach a learner yourself.",
     "sweep": "Run many learners with many seeds side by side.",
     "compare": "Which learner is better over its seeds, and whether that could be chance.",
     "claims": "What is claimed of learners, and whether runs bear it out.",
+    "reproduce": "Make a chapter of the thesis again: runs, figures, claims, a report.",
+    "export": "Runs as tables of trials, episodes and evaluations.",
     "plot": "Draw errors, choices and explored outcomes.",
 }
 

@@ -12,9 +12,10 @@ from sgim.claims.claim import Chapter, Claim, Verdict, Verdicts
 from sgim.claims.components import Finding
 from sgim.claims.plausible import Plausible
 from sgim.claims.report import Report
-from sgim.cli.statistics_text import interval, number, print_notes, print_table
+from sgim.claims.words import effect_words, holm_words, p_words
+from sgim.cli.statistics_text import print_notes, print_table
 from sgim.cli.text import shell, table
-from sgim.statistics import Estimate
+from sgim.statistics.words import number
 
 _COLOURS = {"reproduced": "green", "contradicted": "red", "not": "yellow", "no": "dim"}
 
@@ -30,11 +31,12 @@ def print_chapter(chapter: Chapter, stream: TextIO) -> None:
     for claim in chapter.claims:
         _print_claim(claim, stream)
         print(table([[str(part)] for part in claim.components], indent=" " * 7), file=stream)
-    learners = ",".join(chapter.learners)
-    sweep = ("sgim", "sweep", chapter.experiment, "--learners", learners, "--seeds", _SEEDS)
     folder = f"runs/{chapter.name}-claims"
     print("\nTo decide them:", file=stream)
-    print(f"  {shell(*sweep, '--out', folder)}", file=stream)
+    for (experiment, settings), learners in chapter.sweeps.items():
+        sweep = ["sgim", "sweep", experiment, "--learners", ",".join(learners), "--seeds", _SEEDS]
+        sweep += ["--configuration", f"modern,{settings}"] if settings else []
+        print(f"  {shell(*sweep, '--out', folder)}", file=stream)
     print(f"  {shell('sgim', 'claims', chapter.name, '--runs', folder)}", file=stream)
 
 
@@ -78,8 +80,7 @@ def _row(verdict: Verdict) -> list[str]:
     if verdict.p_holm is None:
         return [*begin, "–", "–", "–", "–", f"needs {', '.join(verdict.needs)}"]
     f = verdict.deciding
-    corrected = "–" if verdict.word == "contradicted" else _p(verdict.p_holm)
-    return [*begin, _effect(f), _p(f.p), corrected, f.runs, str(f.component)]
+    return [*begin, effect_words(f), p_words(f.p), holm_words(verdict), f.runs, str(f.component)]
 
 
 def _print_claim(claim: Claim, stream: TextIO) -> None:
@@ -99,7 +100,7 @@ def _print_components(findings: Sequence[Finding], stream: TextIO) -> None:
     rows = [["component", "one", "other", "effect [95 %]", "p", "seeds", "direction"]]
     for f in findings:
         one, other = (number(float(np.median(x))) if len(x) else "–" for x in (f.one, f.other))
-        cells = [str(f.component), one, other, _effect(f), _p(f.p), f.runs]
+        cells = [str(f.component), one, other, effect_words(f), p_words(f.p), f.runs]
         rows.append([*cells, f"{f.direction:+.2f}"])
     print_table(rows, stream)
 
@@ -115,15 +116,4 @@ def _print_plausible(plausible: Plausible, stream: TextIO) -> None:
         holds = f"{count.holds} of {len(count.words)}" if count.words else "no runs"
         rows.append([count.claim.id, holds, elsewhere])
     print_table(rows, stream, words=("elsewhere",))
-
-
-def _effect(finding: Finding) -> str:
-    effect = finding.effect
-    if finding.component.one.unit == "error":
-        return f"× {interval(effect)}"
-    points = Estimate(100 * effect.value, 100 * effect.low, 100 * effect.high)
-    return f"{interval(points, '+')} points"
-
-
-def _p(p: float) -> str:
-    return f"{p:.2g}"
+    print("\n(holds: all its tests point its way, p < .05 before correction)", file=stream)

@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TextIO
 
-from sgim.cli.statistics_text import interval, number, print_notes, print_table
+from sgim.cli.statistics_text import print_notes, print_table
 from sgim.experiments import EXPERIMENTS
 from sgim.runs.comparison import Comparison
 from sgim.runs.contrasts import Contrast, Group
+from sgim.statistics.words import interval, number
 
 _COLOURS = {"lower": "green", "higher": "red", "equivalent": "cyan"}
 

@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
+import math
 import sys
 from pathlib import Path
 
 from sgim.cli.text import choices, evaluations, example_goal, shell, troubles
 from sgim.experiments import EXPERIMENTS
+from sgim.policy import InverseModel
 from sgim.runs.progress import duration, progress
 from sgim.runs.run import Interrupted, Run, RunError
 from sgim.runs.summary import RecordedRun, read_run
 
 
-def go(run: Run, path: Path, target: int) -> int:
+def go(run: Run, path: Path, target: int, *, pace: float = math.inf) -> int:
     """Go on with a run, then print its errors and choices and what to do next.
 
     Returns:
@@ -21,12 +23,13 @@ def go(run: Run, path: Path, target: int) -> int:
     title = path.stem
     try:
         with run:
-            run.go(target, progress(title))
+            run.go(target, progress(title), pace=pace)
     except (Interrupted, KeyboardInterrupt):
         made = read_run(path).movements
+        again = "the same command" if run.asks_persons else shell("sgim", "resume", path)
         print(
             f"sgim: stopped at {made} of {target} movements; they are in {path}. To go on:\n"
-            f"  {shell('sgim', 'resume', path)}",
+            f"  {again}",
             file=sys.stderr,
         )
         return 130
@@ -37,8 +40,9 @@ def go(run: Run, path: Path, target: int) -> int:
     report(recorded)
     print(f"\njournal  {path} ({recorded.movements} movements, {duration(run.seconds)})")
     print(f"figures  {shell('sgim', 'plot', path, '--out', 'figures')}")
-    goal = example_goal(recorded.task.goal_spaces)
-    print(f"answers  {shell('sgim', 'answer', path, '--goal', goal)}")
+    if isinstance(run.learner.model, InverseModel):
+        goal = example_goal(recorded.task.goal_spaces)
+        print(f"answers  {shell('sgim', 'answer', path, '--goal', goal)}")
     return 0
 
 

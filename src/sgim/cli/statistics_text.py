@@ -1,4 +1,4 @@
-"""Tables of statistics, their numbers and notes: coloured on a terminal, plain elsewhere."""
+"""Tables of statistics and their notes: coloured on a terminal, plain elsewhere."""
 
 from __future__ import annotations
 
@@ -7,20 +7,6 @@ from collections.abc import Collection, Iterable, Mapping, Sequence
 from typing import TextIO
 
 from sgim.cli.text import table
-from sgim.statistics import Estimate
-
-
-def number(value: float, sign: str = "") -> str:
-    """A number in three digits; a dash for one that is not known."""
-    return f"{value:{sign}.3g}" if value == value else "–"
-
-
-def interval(estimate: Estimate, sign: str = "") -> str:
-    """A value with its interval in brackets, if it has one."""
-    value, low, high = (float(x) for x in (estimate.value, estimate.low, estimate.high))
-    if low != low:
-        return number(value, sign)
-    return f"{number(value, sign)} [{number(low)}, {number(high)}]"
 
 
 def print_notes(notes: Iterable[str], stream: TextIO) -> None:

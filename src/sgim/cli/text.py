@@ -7,6 +7,7 @@ from collections.abc import Container, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from sgim.experiments.recognition_benchmark import TAKEN_FOR
 from sgim.runs.summary import RecordedRun
 from sgim.spaces import Box, Space
 
@@ -44,7 +45,7 @@ def evaluations(run: RecordedRun, unit: str = "") -> str:
     """The table of a run's errors; empty if it was never evaluated."""
     if not run.evaluations:
         return ""
-    kinds = list(run.evaluations[-1].errors)
+    kinds = [k for k in run.evaluations[-1].errors if not k.startswith(TAKEN_FOR)]
     every = -(-len(run.evaluations) // MOST_ROWS)
     rows = [["movements", *kinds]]
     for evaluation in run.evaluations[::-every][::-1]:

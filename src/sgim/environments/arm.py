@@ -149,18 +149,3 @@ class PlanarArm(Environment):
         hands[:, 0] = (self.lengths * np.cos(angles)).sum(axis=1)
         hands[:, 1] = (self.lengths * np.sin(angles)).sum(axis=1)
         return hands
-
-
-def _wide(joints: int, degrees: float) -> PlanarArm:
-    return PlanarArm(joints, limit=math.radians(degrees), low=(-2.0, -2.0), high=(2.0, 2.0))
-
-
-ARMS = {
-    "2-tight": PlanarArm(2, limit=math.radians(150), low=(-1.0, -1.0)),
-    "7-tight": PlanarArm(7),
-    "7-wide": _wide(7, 60),
-    "20-wide": _wide(20, 30),
-    "50-wide": _wide(50, 15),
-    "100-wide": _wide(100, 7.5),
-}
-"""Named arms, by joints and goal box: tight, or far larger than what can be reached."""

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from sgim.environments.arm import ARMS
+from sgim.environments.arms import ARMS
 from sgim.environments.tables import read_table
 from sgim.errors import unknown
 from sgim.records import Goal
 
 THROWING_TABLE = "throwing_goals.csv"
+ACROBOT_TABLE = "acrobot_goals.csv"
 PLACING_GOALS = 100
 HOCKEY_GOALS = 41
 
@@ -31,11 +32,17 @@ def hockey_goals() -> list[Goal]:
     return [Goal("hit", np.array([k / half])) for k in range(-half, half + 1)]
 
 
+def acrobot_goals() -> list[Goal]:
+    """Positions spread over where random policies bring the pendulum's tip."""
+    return [Goal("tip", point) for point in read_table(ACROBOT_TABLE)]
+
+
 def reachable_goals(name: str) -> list[Goal]:
     """About 100 positions spread over what an arm's hand reaches.
 
     For tight boxes, one in each tile that random postures reach often enough; for wide ones, the
-    disc of the arm's length, whose rim is out of reach.
+    disc of the arm's length, whose rim is out of reach; for the others, one in each tile that
+    curled postures reach.
 
     Args:
         name: A key of `ARMS`.

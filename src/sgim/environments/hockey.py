@@ -19,7 +19,8 @@ from sgim.environments.hockey_collisions import (
 )
 from sgim.errors import SpaceError
 from sgim.primitives import Intervals, ViaPoints
-from sgim.records import Outcome
+from sgim.primitives.recordings import positions_of
+from sgim.records import Outcome, Trajectory
 from sgim.spaces import Box, FloatArray
 from sgim.task import Task
 
@@ -150,31 +151,41 @@ class AirHockey(Environment):
             moving = self._primitive.durations(chunk)
             for i, puck in enumerate(self._played(mallets)):
                 samples = int(np.searchsorted(self._times, moving[i])) + 1
-                path = np.array(puck.path)
-                shots.append(
-                    Shot(
-                        mallet=mallets[:, i, :samples].T.copy(),
-                        puck=path[:, 1:],
-                        times=path[:, 0],
-                        touches=puck.touches,
-                        ending=puck.ending or "time limit",
-                    )
-                )
+                shots.append(_shot(mallets[:, i, :samples], puck))
         return shots
+
+    def follow(self, trajectory: Trajectory) -> tuple[Outcome, Shot]:
+        """Lead the mallet along recorded positions, then hold it still.
+
+        Returns:
+            The outcome, and what happened on the table.
+
+        Raises:
+            SpaceError: If the trajectory is of other joints or in another unit.
+        """
+        recorded = positions_of(trajectory, self._primitive.joints, self._primitive.unit)
+        since = trajectory.times - trajectory.times[0]
+        samples = int(np.ceil(since[-1] / MALLET_STEP)) + 1
+        times = np.append(MALLET_STEP * np.arange(samples), max(TIME_LIMIT, since[-1] + 1))
+        mallets = np.stack([np.interp(times, since, column) for column in recorded.T])[:, None]
+        (puck,) = self._played(mallets, times)
+        outcome = {"hit": np.array([puck.x])} if puck.ending == "top border" else {}
+        return outcome, _shot(mallets[:, 0, :samples], puck)
 
     def _mallets(self, policies: FloatArray) -> FloatArray:
         """Where mallets are at each of the times, shape ``(2, n, m)``."""
         return np.moveaxis(self._primitive.positions(policies, self._times), -1, 0)
 
-    def _played(self, mallets: FloatArray) -> list[_Puck]:
-        """The pucks of these mallets, at the end of their movements."""
+    def _played(self, mallets: FloatArray, times: FloatArray | None = None) -> list[_Puck]:
+        """The pucks of mallets that are there at these times, at the end of their movements."""
+        times = self._times if times is None else times
         pucks = [_Puck(*self.puck_start, *PUCK_VELOCITY) for _ in range(mallets.shape[1])]
         going = list(range(len(pucks)))
         while going:
             states = np.array([pucks[i].state() for i in going]).T
             followed = mallets if len(going) == len(pucks) else mallets[:, going]
             contacts = mallet_contacts(
-                states[:4], states[4], self._times, followed, PUCK_RADIUS + MALLET_RADIUS
+                states[:4], states[4], times, followed, PUCK_RADIUS + MALLET_RADIUS
             )
             when, apart, velocities = (values.T.tolist() for values in contacts)
             for i, *contact in zip(going, when, apart, velocities, strict=True):
@@ -188,6 +199,12 @@ def _chunks(policies: Sequence[Any] | FloatArray) -> list[FloatArray]:
     if len(values) and values.shape[1:] != (14,):
         raise SpaceError(f"policies have shape {values.shape}, expected (n, 14)")
     return [values[k : k + _CHUNK] for k in range(0, len(values), _CHUNK)]
+
+
+def _shot(mallet: FloatArray, puck: _Puck) -> Shot:
+    path = np.array(puck.path)
+    ending = puck.ending or "time limit"
+    return Shot(mallet.T.copy(), path[:, 1:], path[:, 0], puck.touches, ending)
 
 
 class _Puck:

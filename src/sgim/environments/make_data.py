@@ -3,48 +3,97 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import cast
 
 import numpy as np
 
-from sgim.environments.arm import ARMS, PlanarArm
-from sgim.environments.benchmark_goals import THROWING_TABLE, arm_table
+from sgim.environments.acrobot import Acrobot
+from sgim.environments.arm import PlanarArm
+from sgim.environments.arms import ARMS
+from sgim.environments.benchmark_goals import ACROBOT_TABLE, THROWING_TABLE, arm_table
 from sgim.environments.tables import write_table
 from sgim.environments.throwing import PLACING_SPEED, ThrowingArm, flight, swing
 from sgim.spaces import Box, FloatArray
 from sgim.streams import Streams
 
+Made = tuple[FloatArray, str, tuple[str, str]]
+"""Goals, shape ``(n, 2)``, how they were made, and the names of their coordinates."""
+
 COMMAND = "python -m sgim.environments.make_data"
 THROWING_TILES = (20, 15)
 ARM_GOALS = 100
+ACROBOT_TILES = 24
 # Millions of movements reach all 300 tiles, some of them less than once in 25 000 movements; goals
 # that rare would measure luck, so the pool is what a long random exploration finds.
 _THROWING_POOL = 50_000
 _ARM_POOL = 400_000
+_ACROBOT_POOL = 10_000
 # A tile that one posture in 1000 reaches is part of what a short exploration can find.
 _ARM_SHARE = 1 / 1000
+_CURLED_POOL = 100_000
+_CURLED_LEAST = 20
 
 
 def main(folder: Path) -> None:
-    """Write all tables to ``folder``."""
+    """Write the tables that ``folder`` lacks: those there are what results were measured by."""
     streams = Streams(0)
+    makers: dict[str, Callable[[np.random.Generator], Made]] = {
+        "throwing": _throwing,
+        "acrobot": _acrobot,
+        **{name: partial(_arm, name) for name in ARMS},
+    }
+    for name, make in makers.items():
+        path = folder / {"throwing": THROWING_TABLE, "acrobot": ACROBOT_TABLE}.get(
+            name, arm_table(name)
+        )
+        if path.exists():
+            print(f"{path.name}: kept")
+            continue
+        goals, comment, columns = make(streams(f"make_data/{name}"))
+        write_table(path, f"Made by: {COMMAND}\n{comment}", columns, goals, decimals=6)
+        print(f"{path.name}: {len(goals)} goals")
+
+
+def _throwing(rng: np.random.Generator) -> Made:
     box = cast(Box, ThrowingArm().task.outcome_spaces["throw"])
-    pool = throwing_pool(streams("make_data/throwing"), _THROWING_POOL)
+    pool = throwing_pool(rng, _THROWING_POOL)
     goals = one_point_per_tile(pool, box.low, box.range / THROWING_TILES, THROWING_TILES, 2)
-    comment = _tiled(goals, THROWING_TILES, len(pool), 2)
-    _write(folder / THROWING_TABLE, goals, comment, ("distance", "height"))
-    for name, arm in ARMS.items():
-        if name.endswith("wide"):
-            goals = even_disc(ARM_GOALS)
-            comment = "points spread evenly over the disc of radius 1 m, most of it within reach."
-        else:
-            rng = streams(f"make_data/{name}")
-            pool = arm.hands(rng.uniform(-arm.limit, arm.limit, (_ARM_POOL, arm.joints)))
-            least = round(_ARM_SHARE * _ARM_POOL)
-            goals, tiles = about(ARM_GOALS, pool, arm, least)
-            comment = _tiled(goals, tiles, len(pool), least)
-        _write(folder / arm_table(name), goals, comment, ("x", "y"))
+    return goals, _tiled(goals, THROWING_TILES, len(pool), 2), ("distance", "height")
+
+
+def _acrobot(rng: np.random.Generator) -> Made:
+    pool, tiles = acrobot_pool(rng, _ACROBOT_POOL), (ACROBOT_TILES, ACROBOT_TILES)
+    goals = one_point_per_tile(pool, np.full(2, -2.0), np.full(2, 4 / ACROBOT_TILES), tiles, 2)
+    return goals, _tiled(goals, tiles, len(pool), 2), ("x", "y")
+
+
+def _arm(name: str, rng: np.random.Generator) -> Made:
+    arm = ARMS[name]
+    if name.endswith("wide"):
+        comment = "points spread evenly over the disc of radius 1 m, most of it within reach."
+        return even_disc(ARM_GOALS), comment, ("x", "y")
+    if name.endswith("tight"):
+        pool = arm.hands(rng.uniform(-arm.limit, arm.limit, (_ARM_POOL, arm.joints)))
+        least = round(_ARM_SHARE * _ARM_POOL)
+    else:
+        pool, least = arm.hands(_curled(rng, arm)), _CURLED_LEAST
+    goals, tiles = about(ARM_GOALS, pool, arm, least)
+    return goals, _tiled(goals, tiles, len(pool), least), ("x", "y")
+
+
+def _curled(rng: np.random.Generator, arm: PlanarArm) -> FloatArray:
+    """Postures whose joints lean the same way, or one half the other, shape ``(n, joints)``.
+
+    Independent joints cancel each other out: with many of them, random postures are all alike.
+    """
+    ends = rng.uniform(-arm.limit, arm.limit, (_CURLED_POOL, 2))
+    bends = rng.integers(0, arm.joints + 1, _CURLED_POOL)
+    common = np.where(np.arange(arm.joints) < bends[:, None], ends[:, :1], ends[:, 1:])
+    varied = common + rng.normal(0.0, 0.2 * arm.limit, common.shape)
+    return np.clip(varied, -arm.limit, arm.limit)
 
 
 def _tiled(goals: FloatArray, tiles: tuple[int, int], pool: int, least: int) -> str:
@@ -52,11 +101,6 @@ def _tiled(goals: FloatArray, tiles: tuple[int, int], pool: int, least: int) -> 
         f"{len(goals)} of {tiles[0]} x {tiles[1]} tiles of the box were reached {least} times or "
         f"more by {pool} movements;\nthe point reached nearest to the middle of each, in m."
     )
-
-
-def _write(path: Path, goals: FloatArray, comment: str, columns: tuple[str, str]) -> None:
-    write_table(path, f"Made by: {COMMAND}\n{comment}", columns, goals, decimals=6)
-    print(f"{path.name}: {len(goals)} goals")
 
 
 def even_disc(count: int) -> FloatArray:
@@ -74,6 +118,14 @@ def throwing_pool(rng: np.random.Generator, count: int) -> FloatArray:
     angles, speeds = swing(policies)
     thrown = np.abs(speeds) >= PLACING_SPEED
     return flight(angles[thrown], speeds[thrown])
+
+
+def acrobot_pool(rng: np.random.Generator, count: int) -> FloatArray:
+    """Where random policies that mostly push with all they can bring the tip, ``(count, 2)``."""
+    acrobot = Acrobot()
+    drawn = rng.uniform(-1.0, 1.0, (count, cast(Box, acrobot.task.policy_space).dimension))
+    policies = np.sign(drawn) * np.abs(drawn) ** 0.2
+    return np.array([acrobot.execute(policy, None, rng)["tip"] for policy in policies])
 
 
 def one_point_per_tile(

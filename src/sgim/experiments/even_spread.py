@@ -37,17 +37,20 @@ def by_tile(landings: FloatArray, count: int) -> list[list[int]]:
     raise SgimError(f"landings lie in fewer than {count} tiles: explore more")
 
 
-def mean_miss(executions: Sequence[Callable[[], Outcome]], landing: FloatArray) -> float:
-    """How far repeated movements land from where the first did, in m.
+def mean_miss(
+    executions: Sequence[Callable[[], Outcome]], landing: FloatArray, kind: str = "float"
+) -> float:
+    """How far repeated movements land from where the first did, in the outcome's unit.
 
     Args:
         executions: Each executes the movement once; one that does not land, or fails, misses by 1.
         landing: Where it should land.
+        kind: Kind of the outcome.
     """
     distances = []
     for execute in executions:
         try:
-            repeated = execute().get("float")
+            repeated = execute().get(kind)
         except SgimError:
             repeated = None
         distances.append(1.0 if repeated is None else float(np.linalg.norm(repeated - landing)))

@@ -12,11 +12,14 @@ from sgim.configurations import Configuration
 from sgim.environments.base import MinimalEnvironment
 from sgim.errors import JournalError, SgimError, UnknownNameError, unknown
 from sgim.learner import Learner
-from sgim.runs.benchmark import Benchmark
+from sgim.runs.benchmark import Measures
 from sgim.runs.journal import Journal
 from sgim.runs.journal_reading import header_of
 from sgim.runs.run import Run
-from sgim.teachers import Teacher
+from sgim.teachers import RemoteTeacher, Teacher
+
+NO_TEACHER = "none"
+"""Said instead of a teacher's name."""
 
 
 @dataclass(frozen=True)
@@ -32,28 +35,50 @@ class Experiment:
         make_teachers: Makes the teachers.
         unit: Unit of the benchmark's errors.
         movements: How many movements a run has by default.
+        alone: The learner of a run without teachers, when none is named.
+        taught: The learner of a run with teachers, when none is named.
+        default_teacher: The only teacher of a run for which none is named; None for all,
+            `NO_TEACHER` for none if no learner is named either, else all.
+        batch: How many movements a run carries out side by side by default.
+        evaluate_every: Most movements between evaluations by default.
         variant_of: Name of the experiment of which this is a variant, if it is one.
     """
 
     name: str
     summary: str
     environment: Callable[[], MinimalEnvironment]
-    benchmark: Callable[[MinimalEnvironment], Benchmark]
+    benchmark: Callable[[MinimalEnvironment], Measures]
     teachers: Mapping[str, str] = field(default_factory=dict)
-    make_teachers: Callable[[], Mapping[str, Teacher]] = dict
+    make_teachers: Callable[[], Mapping[str, Teacher | RemoteTeacher]] = dict
     unit: str = "share of the outcome space"
     movements: int = 8000
+    alone: str = "sagg-riac"
+    taught: str = "sgim-acts"
+    default_teacher: str | None = None
+    batch: int = 1
+    evaluate_every: int = 1000
     variant_of: str | None = None
 
-    @property
-    def default_learner(self) -> str:
-        """The learner that a run has when none is named."""
-        return "sgim-acts" if self.teachers else "sagg-riac"
+    def learner_name(self, learner: str | None = None, teacher: str | None = None) -> str:
+        """The name of a run's learner, given what was said of it.
+
+        Args:
+            learner: Its name; None for the experiment's own.
+            teacher: Its only teacher; `NO_TEACHER` for none, None if nothing was said.
+        """
+        if learner is None:
+            teacher = self.default_teacher if teacher is None else teacher
+            if teacher == NO_TEACHER:
+                return self.alone
+            learner = self.taught if self.teachers else self.alone
+        return learner if teacher is None else f"{learner.partition(':')[0]}:{teacher}"
 
     def learner(
         self, name: str, *, configuration: str | Configuration = "modern", seed: int = 0
     ) -> Learner:
         """Make a learner by its name on the command line, such as ``mimicry:T1``.
+
+        With ``:none`` it has no teacher.
 
         Raises:
             UnknownNameError: If learner, teacher or configuration is unknown.
@@ -61,15 +86,18 @@ class Experiment:
                 way round; or if it needs one teacher and that is not named.
         """
         algorithm, colon, teacher = name.partition(":")
-        if algorithm not in algorithms.ALGORITHMS:
-            raise unknown("learner", algorithm, algorithms.ALGORITHMS)
-        if colon and teacher not in self.teachers:
+        task = self.environment().task
+        known = algorithms.algorithms_for(task)
+        if algorithm not in known:
+            raise unknown("learner", algorithm, known)
+        if colon and teacher not in (*self.teachers, NO_TEACHER):
             if not self.teachers:
                 raise SgimError(f"{self.name} has no teachers; leave {teacher!r} out")
             raise unknown(f"teacher of {self.name}", teacher, self.teachers)
         chosen = configurations.configuration_of(configuration)
-        teachers: Sequence[str] = [teacher] if colon else list(self.teachers)
-        task = self.environment().task
+        named = [] if teacher == NO_TEACHER else [teacher]
+        usual = [t for t in self.teachers if self.default_teacher in (t, None, NO_TEACHER)]
+        teachers: Sequence[str] = named if colon else usual
         try:
             learner = algorithms.make(algorithm, task, teachers, configuration=chosen, seed=seed)
         except UnknownNameError:
@@ -79,7 +107,7 @@ class Experiment:
                 raise SgimError(f"{algorithm} needs a teacher, and {self.name} has none") from error
             shown = "; ".join(f"{algorithm}:{t} ({line})" for t, line in self.teachers.items())
             raise SgimError(f"{algorithm} has one teacher: choose among {shown}") from error
-        if colon and not learner.teachers:
+        if colon and named and not learner.teachers:
             raise SgimError(f"{algorithm} asks no teacher; leave {teacher!r} out")
         return learner
 
@@ -124,6 +152,11 @@ class Experiment:
         """
         environment = self.environment()
         made = self.make_teachers()
+        if unknown_ := [name for name in learner.teachers if name not in made]:
+            raise SgimError(
+                f"{self.name} has no teacher {', '.join(unknown_)}: this learner is taught by a "
+                f"person; go on with sgim teach {self.name} --journal PATH"
+            )
         label = self.label(learner)
         named = {} if label is None else {"learner": label}
         return Run(
@@ -241,11 +274,11 @@ class Experiment:
         )
 
 
-def evaluation_interval(movements: int) -> int:
-    """Movements between evaluations: 1000 or less, a quarter of the run or less.
+def evaluation_interval(movements: int, most: int = 1000) -> int:
+    """Movements between evaluations: ``most`` or less, a quarter of the run or less.
 
     It divides the run evenly where that is possible, so that the last evaluation is at its end.
     """
-    least = max(4, -(-movements // 1000))
+    least = max(4, -(-movements // most))
     even = (movements // parts for parts in range(least, 2 * least) if movements % parts == 0)
     return next(even, max(1, movements // least))

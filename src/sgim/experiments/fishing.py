@@ -7,7 +7,7 @@ from functools import partial
 
 from sgim.environments.base import MinimalEnvironment
 from sgim.environments.fishing import FishingFloor, FishingRod
-from sgim.environments.fishing.demonstrators import DEMONSTRATORS, fishing_teacher
+from sgim.environments.fishing.demonstrators import DEMONSTRATORS, fishing_teacher, floor_teacher
 from sgim.environments.fishing.goals import fishing_goals, floor_goals
 from sgim.experiments.experiment import Experiment
 from sgim.runs.benchmark import Benchmark
@@ -42,6 +42,10 @@ def _floor_benchmark(environment: MinimalEnvironment) -> Benchmark:
     return Benchmark(floor_goals(), environment, "metric")
 
 
+def _floor_teachers() -> dict[str, Teacher]:
+    return {"D3": floor_teacher(FishingFloor().task)}
+
+
 _CAST = "Cast the float of a fishing rod where asked on the water"
 
 FISHING = [
@@ -59,6 +63,8 @@ FISHING = [
         summary="Bring a ball on the line to rest where asked on the floor (section 3.6).",
         environment=FishingFloor,
         benchmark=_floor_benchmark,
+        teachers={"D3": DEMONSTRATORS[3]},
+        make_teachers=_floor_teachers,
         unit="sides of the view",
         movements=5000,
         variant_of="fishing",

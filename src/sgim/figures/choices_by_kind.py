@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
+from itertools import count
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -26,7 +27,9 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-def choices_by_kind(journals: Iterable[str | Path | RecordedRun]) -> Figure:
+def choices_by_kind(
+    journals: Iterable[str | Path | RecordedRun], *, columns: int | None = None
+) -> Figure:
     """Draw shares of modes over movements for each kind of goal, and of both over the whole run.
 
     Each learner that chooses among modes and kinds has a row, with the episodes of all its runs
@@ -34,6 +37,7 @@ def choices_by_kind(journals: Iterable[str | Path | RecordedRun]) -> Figure:
 
     Args:
         journals: Journals of runs of one experiment, or the runs read already.
+        columns: Panels in a row: all of a learner if None, or 1.
 
     Raises:
         NothingToDrawError: If no learner chooses both.
@@ -48,29 +52,35 @@ def choices_by_kind(journals: Iterable[str | Path | RecordedRun]) -> Figure:
     kinds = kind_colours({k for one in openings.values() for k in one.kinds if k is not None})
     modes = mode_colours({mode for one in openings.values() for mode in one.modes})
     end = max(run.movements for members in groups.values() for run in members)
-    height = max(1.7, 0.5 + 0.19 * len(modes))
-    figure = new_figure(3.0 * (len(kinds) + 1) + 0.6, 0.9 + height * len(groups))
-    grid = figure.add_gridspec(
-        len(groups) + 1, len(kinds) + 1, height_ratios=[*[height] * len(groups), 0.4]
-    )
-    for row, (name, members) in enumerate(groups.items()):
+    height = max(1.7, 0.5 + 0.24 * len(modes))
+    across = columns or len(kinds) + 1
+    down = (len(kinds) + 1) // across
+    legends = [0.4] if across > 1 else [0.1 + 0.17 * -(-len(modes) // 2), 0.3]
+    heights = [height] * (down * len(groups)) + legends
+    figure = new_figure(3.0 * across + 0.6 + (across == 1), 0.5 + sum(heights))
+    grid = figure.add_gridspec(len(heights), across, height_ratios=heights)
+    for number, (name, members) in enumerate(groups.items()):
         edges, chosen = windows(members), openings[name]
-        for column, kind in enumerate(kinds):
-            axes = figure.add_subplot(grid[row, column])
+        spots = (
+            grid[place // across, place % across] for place in count(number * (len(kinds) + 1))
+        )
+        many = f"\n({len(members)} runs)" if len(members) > 1 else ""
+        for i, kind in enumerate(kinds):
+            axes = figure.add_subplot(next(spots))
             of_kind = chosen.of_kind(kind)
             draw_shares(axes, of_kind, edges, "modes", modes, end)
             share = len(of_kind.modes) / len(chosen.modes)
             axes.set_title(f"mode when the goal is {kind}\n({share:.0%} of the episodes)")
             axes.set_xlabel("movements")
-            if column == 0:
-                many = f"\n({len(members)} runs)" if len(members) > 1 else ""
+            if i == 0 or across == 1:
                 axes.set_ylabel(name + many)
             tidy(axes)
-        axes = figure.add_subplot(grid[row, -1])
+        axes = figure.add_subplot(next(spots))
         _draw_whole(axes, chosen, list(modes), kinds)
         tidy(axes)
-    draw_legend(figure.add_subplot(grid[-1, :-1]), modes, columns=4)
-    draw_legend(figure.add_subplot(grid[-1, -1]), kinds)
+    below = (grid[-1, :-1], grid[-1, -1]) if across > 1 else (grid[-2, 0], grid[-1, 0])
+    draw_legend(figure.add_subplot(below[0]), modes, columns=4 if across > 1 else 2)
+    draw_legend(figure.add_subplot(below[1]), kinds)
     return figure
 
 

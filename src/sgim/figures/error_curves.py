@@ -12,23 +12,25 @@ import numpy as np
 from sgim.errors import SgimError
 from sgim.experiments import EXPERIMENTS
 from sgim.figures.curves import BANDS, Band, Curve, curve
-from sgim.figures.style import MARKERS, OKABE_ITO, NothingToDrawError, new_figure, read_runs, tidy
+from sgim.figures.panels import (
+    add_legend,
+    error_kinds,
+    kind_title,
+    learner_labels,
+    new_panels,
+    scale,
+)
+from sgim.figures.style import MARKERS, OKABE_ITO, NothingToDrawError, read_runs, tidy
 from sgim.runs.costs import Prices, Spending, read_spending
 from sgim.runs.measured import by_learner
 from sgim.runs.summary import RecordedRun
-from sgim.spaces import FloatArray
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-_LOGARITHMIC = 10.0
-"""Ratio of the largest to the smallest median from which the scale is logarithmic."""
-
 _MOST_MARKERS = 20
 """Markers on a line; between them it has none."""
-
-_LEGEND_SIZE = 8.0  # points
 
 _UNITS = ((3600.0, "h"), (60.0, "min"), (1.0, "s"))
 
@@ -38,6 +40,7 @@ def error_curves(
     *,
     band: Band = "interval",
     prices: Prices | None = None,
+    columns: int | None = None,
 ) -> Figure:
     """Draw errors of learners: a panel for each kind of goal, and one for their mean.
 
@@ -49,6 +52,7 @@ def error_curves(
             interval; ``"quartiles"``: the median, and the quartiles.
         prices: Draw over the time of robot and persons instead of over movements: as recorded,
             and at these prices where nothing is recorded.
+        columns: Panels in a row; all if None.
 
     Raises:
         SgimError: If they are of different experiments, or none was ever evaluated.
@@ -60,18 +64,10 @@ def error_curves(
     if not runs:
         raise SgimError("no run was evaluated: there are no errors to draw")
     groups = by_learner(runs)
-    kinds = list(runs[0].evaluations[-1].errors)
-    if all(e.errors["total"] == e.errors[kinds[0]] for run in runs for e in run.evaluations):
-        kinds.remove("total")  # there is one kind only
+    kinds = error_kinds(runs)
     spent = None if prices is None else _spending(groups)
-    labels = [
-        name if len(members) == 1 else f"{name} ({len(members)} runs)"
-        for name, members in groups.items()
-    ]
-    width = max(4.0, 3.1 * len(kinds))
-    columns = _legend_columns(labels, 72 * width)
-    figure = new_figure(width, 3.4 + 0.18 * ceil(len(labels) / columns))
-    panels = figure.subplots(1, len(kinds), squeeze=False)[0]
+    labels = learner_labels(groups)
+    figure, panels, legend_columns = new_panels(len(kinds), columns, labels)
     for panel, kind in zip(panels, kinds, strict=True):
         curves = []
         for name, members in groups.items():
@@ -82,23 +78,15 @@ def error_curves(
         unit, label = _axis(curves, spent, prices)
         for i, (name, drawn) in enumerate(zip(labels, curves, strict=True)):
             _draw(panel, drawn, unit, name, i)
-        panel.set_title("total (mean of the kinds)" if kind == "total" else kind)
+        panel.set_title(kind_title(kind))
         panel.set_xlabel(label)
         panel.set_xlim(left=0)
-        _scale(panel, np.concatenate([drawn.middle for drawn in curves]))
+        scale(panel, "y", np.concatenate([drawn.middle for drawn in curves]))
         panel.grid(axis="y", color="#E5E5E5", linewidth=0.6)
         tidy(panel)
     experiment = EXPERIMENTS.get(runs[0].experiment or "")
     panels[0].set_ylabel(f"error ({experiment.unit})" if experiment else "error")
-    figure.legend(
-        *panels[0].get_legend_handles_labels(),
-        loc="outside lower center",
-        ncols=columns,
-        frameon=False,
-        fontsize=_LEGEND_SIZE,
-        title=BANDS[band] if len(runs) > len(groups) else None,
-        title_fontsize=_LEGEND_SIZE,
-    )
+    add_legend(figure, panels[0], legend_columns, BANDS[band] if len(runs) > len(groups) else None)
     return figure
 
 
@@ -142,32 +130,3 @@ def _axis(
     at = f"{prices.robot_seconds:g} s a movement, {prices.person_seconds:g} s a request"
     unless = ",\nwhere not recorded" if any(s.recorded for s in all_spent) else ""
     return unit, f"time of robot and persons ({name})\n{at}{unless}"
-
-
-def _legend_columns(labels: Sequence[str], width: float) -> int:
-    """How many columns of a legend, at most 4, fit into so many points."""
-    from matplotlib.textpath import TextPath
-
-    handle = 5 * _LEGEND_SIZE  # with the gaps beside it
-    widths = [
-        TextPath((0, 0), label, size=_LEGEND_SIZE).get_extents().width + handle for label in labels
-    ]
-    for columns in range(min(4, len(labels)), 1, -1):
-        if sum(part.max() for part in np.array_split(widths, columns)) < 0.95 * width:
-            return columns
-    return 1
-
-
-def _scale(axes: Axes, values: FloatArray) -> None:
-    """Choose a linear or a logarithmic scale for these errors, with plain numbers as labels."""
-    from matplotlib.ticker import LogLocator, NullFormatter
-
-    low, high = float(values.min()), float(values.max())
-    if low <= 0 or high <= _LOGARITHMIC * low:
-        axes.set_ylim(bottom=0)
-        return
-    axes.set_yscale("log")
-    steps = (1.0,) if high > 100 * low else (1.0, 2.0, 5.0)
-    axes.yaxis.set_major_locator(LogLocator(subs=steps))
-    axes.yaxis.set_major_formatter(lambda value, _: f"{value:g}")
-    axes.yaxis.set_minor_formatter(NullFormatter())

@@ -8,9 +8,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from sgim.errors import SgimError
-from sgim.events import Told
 from sgim.figures.style import new_figure, tidy
-from sgim.runs.journal import Journal
+from sgim.runs.content import outcomes_of
 from sgim.runs.summary import read_run
 from sgim.spaces import Box, Choices, FloatArray, Space
 from sgim.task import Task
@@ -47,7 +46,7 @@ def explored(path: str | Path, task: Task | None = None) -> Figure:
         for kind, space in run.task.outcome_spaces.items()
         if isinstance(space, Box | Choices)
     }
-    found = _outcomes(path, run.task)
+    found = outcomes_of(path, run.task)
     if not any(found[kind][0] for kind in spaces):
         raise SgimError(f"{path} has no outcome that can be drawn")
     widths = [_width(space) for space in spaces.values()]
@@ -65,18 +64,6 @@ def explored(path: str | Path, task: Task | None = None) -> Figure:
     figure.suptitle(", ".join(name for name in title if name) or run.path.stem, fontsize=11)
     _colour_bar(figure, list(panels), end)
     return figure
-
-
-def _outcomes(path: str | Path, task: Task) -> dict[str, tuple[list[int], list[Any]]]:
-    """For each kind, at which movement and what."""
-    found: dict[str, tuple[list[int], list[Any]]] = {k: ([], []) for k in task.outcome_spaces}
-    with Journal.open(path, task, append=False) as journal:
-        for number, event in enumerate(journal.events(only=("told",))):
-            assert isinstance(event, Told)
-            for kind, point in event.outcome.items():
-                found[kind][0].append(number)
-                found[kind][1].append(point)
-    return found
 
 
 def _draw(axes: Axes, space: Space, when: Any, points: list[Any], end: int) -> None:

@@ -18,7 +18,12 @@ OKABE_ITO = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "
 
 MARKERS = "osD^vPX*"
 
-_FAMILIES = {"mimic": ("#8C2D04", "#FDD0A2"), "emulate": ("#084594", "#C6DBEF")}
+_FAMILIES = {
+    "mimic": ("#8C2D04", "#FDD0A2"),
+    "emulate": ("#084594", "#C6DBEF"),
+    "imitate": ("#54278F", "#DADAEB"),
+    "observe": ("#00441B", "#C7E9C0"),
+}
 _ALONE = ("#4D4D4D", "#A6A6A6", "#D9D9D9")
 
 
@@ -42,7 +47,7 @@ def read_runs(journals: Iterable[str | Path | RecordedRun]) -> list[RecordedRun]
 
 
 def mode_colours(modes: Iterable[str]) -> dict[str, str]:
-    """Greys for modes without a teacher, warm shades to mimic and cold ones to emulate.
+    """Greys for modes without a teacher, shades of one colour for each way to learn from one.
 
     Other modes have the remaining colours of the palette.
     """

@@ -51,12 +51,6 @@ class Column(Generic[Scalar]):
         self._data = data
 
     @property
-    def last(self) -> NDArray[Scalar]:
-        """The last row, as a view."""
-        row: NDArray[Scalar] = self._data[self._length - 1]
-        return row
-
-    @property
     def rows(self) -> NDArray[Scalar]:
         """The rows so far, as a view."""
         return self._data[: self._length]

@@ -32,6 +32,13 @@ class PointColumn:
         """Add a checked point."""
         (self._objects if self._vectors is None else self._vectors).append(point)
 
+    def extend(self, points: Sequence[Any]) -> None:
+        """Add checked points."""
+        if self._vectors is None:
+            self._objects.extend(points)
+        else:
+            self._vectors.extend(np.array(points))
+
     def __getitem__(self, row: int) -> Any:
         if self._vectors is not None:
             return self._vectors.rows[row].copy()
@@ -44,11 +51,15 @@ class PointColumn:
         return [self._objects[row] for row in rows.tolist()]
 
     def encoded(self, rows: IntArray | slice) -> FloatArray:
-        """Points of these rows scaled to the unit box, shape ``(n, dimension)``."""
+        """Points of these rows scaled to the unit box, shape ``(..., dimension)``."""
         if self._box is not None and self._vectors is not None:
             points = self._vectors.rows
-            some = points[rows] if isinstance(rows, slice) else points.take(rows, axis=0)
-            return self._box.encode(some)
+            if isinstance(rows, slice):
+                return self._box.encode(points[rows])
+            some: FloatArray = points.take(rows, axis=0)
+            some -= self._box.low  # as the box encodes, without room for copies
+            some /= self._box.range
+            return some
         chosen = (
             self._objects[rows] if isinstance(rows, slice) else [self._objects[i] for i in rows]
         )
@@ -96,12 +107,28 @@ class KindMemory:
         if self.dimension is not None:
             self.keys.append(self.key(outcome, context))
 
+    def extend(
+        self, trials: Sequence[int], outcomes: Sequence[Any], contexts: Sequence[Any]
+    ) -> None:
+        """As `append` for several trials, one or more."""
+        self.trials.extend(np.array(trials))
+        self.outcomes.extend(outcomes)
+        if self.dimension is not None:
+            self.keys.extend(self.keys_of(outcomes, contexts))
+
     def key(self, point: Any, context: Any) -> FloatArray:
         """The key of an outcome or goal of this kind in this context."""
         vector = self.space.encode(point)
         if self.context_space is None:
             return vector
         return np.concatenate((vector, self.context_space.encode(context)))
+
+    def keys_of(self, points: Sequence[Any], contexts: Sequence[Any]) -> FloatArray:
+        """As `key` for several points, one or more, each in its context: ``(n, key dimension)``."""
+        keys = _encoded(self.space, points)
+        if self.context_space is None:
+            return keys
+        return np.concatenate((keys, _encoded(self.context_space, contexts)), axis=1)
 
     def nearest(self, key: FloatArray, k: int) -> tuple[FloatArray, IntArray]:
         """The k rows with the nearest keys.
@@ -132,7 +159,7 @@ class KindMemory:
         return index.query(policy, k)
 
     def encoded_policies(self, rows: IntArray | slice) -> FloatArray:
-        """The policies of these rows scaled to the unit box, shape ``(n, policy dimension)``."""
+        """The policies of these rows scaled to the unit box, shape ``(..., policy dimension)``."""
         trials = self.trials.rows
         return self._policies.encoded(
             trials[rows] if isinstance(rows, slice) else trials.take(rows)
@@ -175,16 +202,37 @@ class Memory:
         self._length = number + 1
         return number
 
+    def extend(self, trials: Sequence[Trial]) -> dict[str, list[int]]:
+        """As `add` for several checked trials.
+
+        Returns:
+            Kind → which of the trials produced it, in order: they have the last rows of that
+            kind's memory.
+        """
+        first = self._length
+        self.policies.extend([trial.policy for trial in trials])
+        if self._contexts is not None:
+            self._contexts.extend([trial.context for trial in trials])
+        producing: dict[str, list[int]] = {}
+        for i, trial in enumerate(trials):
+            for kind in trial.outcome:
+                producing.setdefault(kind, []).append(i)
+        for kind, members in producing.items():
+            self.kinds[kind].extend(
+                [first + i for i in members],
+                [trials[i].outcome[kind] for i in members],
+                [trials[i].context for i in members],
+            )
+        self._length = first + len(trials)
+        return producing
+
     def key(self, kind: str, point: Any, context: Any) -> FloatArray:
         """The key of an outcome or goal of this kind in this context (see `KindMemory`)."""
         return self.kinds[kind].key(point, context)
 
     def keys(self, kind: str, points: Sequence[Any], contexts: Sequence[Any]) -> FloatArray:
-        """The keys of many outcomes or goals of a kind, shape ``(n, key dimension)``."""
-        space = self.task.outcome_spaces[kind]
-        if isinstance(space, Box) and self.task.context_space is None:
-            return space.encode(np.array(points))
-        return np.array([self.key(kind, p, c) for p, c in zip(points, contexts, strict=True)])
+        """The keys of one or more outcomes or goals of a kind, shape ``(n, key dimension)``."""
+        return self.kinds[kind].keys_of(points, contexts)
 
     def trial(self, number: int) -> Trial:
         """The trial of this number, 0 ≤ number < len(self)."""
@@ -195,3 +243,9 @@ class Memory:
                 outcome[kind] = memory.outcomes[row]
         context = None if self._contexts is None else self._contexts[number]
         return Trial(self.policies[number], outcome, context)
+
+
+def _encoded(space: Space, points: Sequence[Any]) -> FloatArray:
+    if isinstance(space, Box):  # encodes arrays of points at once
+        return space.encode(np.array(points))
+    return np.array([space.encode(point) for point in points])

@@ -12,20 +12,19 @@ from __future__ import annotations
 import math
 import operator
 from collections.abc import Sequence
-from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
-from scipy.spatial import cKDTree
+from numpy.typing import ArrayLike
 
-FloatArray = NDArray[np.float64]
-IndexArray = NDArray[np.intp]
+from sgim.memory.trees import Answer, FloatArray, IndexArray, Tree, in_lines
+
 Neighbours = tuple[FloatArray, IndexArray]
-_Answer = tuple[IndexArray, Any]  # What one tree proposes: rows, and where it stopped.
 
 _LARGEST = 1e150  # Of a coordinate's magnitude: squares of differences must not overflow.
 _FEW = 64  # Coordinates for which plain numbers are faster than arrays.
-_WORTH_A_TREE = 64  # Points asked for at once, for which a tree over the newest pays.
+_MANY = 6  # Points asked for at once, from which on they are better looked for together.
+_FEW_NEWEST, _MANY_NEWEST = 256, 2048  # Points that many askers together look at one by one.
+_BLOCK = 1 << 15  # Distances computed at once, so that they stay in a cache.
 _MERGE_RATIO = 6  # Raising it leaves fewer trees to ask, and merges more; 4 to 6 is best at 10^6.
 # Trees round, and underflow, in their own way: asking for this much more loses no point.
 _SLACK, _TINY = 1 + 1e-9, 1e-160
@@ -38,12 +37,12 @@ def _at_least_one(name: str, value: int) -> int:
 
 
 def _squared_distances(columns: FloatArray, point: FloatArray) -> FloatArray:
-    """Squared distances to ``point`` of the points in ``columns``, shape (d, n).
+    """Squared distances to ``point`` of the points in ``columns``, shape (d, ...).
 
-    ``point`` may also have a column for each of them.
+    ``point`` has shape (d,), or one that spreads to that of ``columns``.
 
-    The sum adds one coordinate at a time, in order, whatever n is: a point's distance is the
-    same to the last bit wherever the point is stored.
+    The sum adds one coordinate at a time, in order, whatever the shape: a point's distance is
+    the same to the last bit wherever the point is stored.
     """
     differences = columns - (point[:, None] if point.ndim == 1 else point)
     differences *= differences
@@ -53,14 +52,15 @@ def _squared_distances(columns: FloatArray, point: FloatArray) -> FloatArray:
     return total
 
 
-def _rowwise_distances(points: FloatArray, others: FloatArray) -> FloatArray:
-    """Distance of each row to the row of ``others``, to the last bit as by the function above."""
-    total = np.zeros(len(points))
-    for column in range(points.shape[1]):
-        difference = points[:, column] - others[:, column]
-        total += difference * difference
-    distances: FloatArray = np.sqrt(total)
-    return distances
+def _squares_between(columns: FloatArray, points: FloatArray) -> FloatArray:
+    """As `_squared_distances` of columns of shape (d, m or 1, n) to each of m points: (m, n)."""
+    total: FloatArray = columns[0] - points[:, :1]
+    total *= total
+    for column, coordinates in zip(columns[1:], points.T[1:], strict=True):
+        difference = column - coordinates[:, None]
+        difference *= difference
+        total += difference
+    return total
 
 
 def _bound_on_smallest(values: FloatArray, k: int) -> float:
@@ -82,57 +82,6 @@ def _sorted(squares: FloatArray, indices: IndexArray, k: int) -> Neighbours:
     distances = np.sqrt(squares)  # Unequal squares can have equal roots.
     order = distances.argsort(kind="stable")[:k]  # Stable: of equally distant ones the oldest.
     return distances[order], indices[order]
-
-
-def _group_equal(points: FloatArray) -> tuple[IndexArray, IndexArray]:
-    """An order of the rows that puts equal ones together, ascending, and each group's start."""
-    # Sorting hashes is faster than sorting rows; a collision may split a group, costing time.
-    hashes = np.zeros(len(points), dtype=np.uint64)
-    for column in (points + 0.0).view(np.uint64).T:  # Adding makes -0.0 hash as its equal 0.0.
-        hashes = (hashes ^ (hashes >> np.uint64(32)) ^ column) * np.uint64(0x9E3779B97F4A7C15)
-    order = hashes.argsort(kind="stable")
-    rows = points[order]
-    return order, np.flatnonzero(np.append(True, (rows[1:] != rows[:-1]).any(axis=1)))
-
-
-class _Tree:
-    """A k-d tree of the distinct among consecutive points: equal ones need no looking at."""
-
-    def __init__(self, points: FloatArray, start: int) -> None:
-        self.start, self.size = start, len(points)
-        order, self._starts = _group_equal(points)
-        self.distinct = len(self._starts)
-        if self.distinct < self.size:
-            self._members = order + start
-            self._sizes = np.diff(self._starts, append=self.size)
-            points = points[order[self._starts]]
-        # Midpoint splits build about 1.6 times as fast as medians and answer no slower.
-        self._tree: Any = cKDTree(points, leafsize=16, balanced_tree=False)
-
-    def nearest(self, points: FloatArray, k: int) -> _Answer:
-        """Rows of k + 1 nearest distinct points, and from what distance on there may be more."""
-        distances, rows = self._tree.query(points, np.arange(1, min(k + 1, self.distinct) + 1))
-        return rows, distances[..., -1] + (0 if k + 1 < self.distinct else math.inf)
-
-    def within(self, point: FloatArray, radius: float, limit: int) -> IndexArray:
-        """Indices of the points within ``radius``, the first ``limit`` of equal ones."""
-        rows = self._tree.query_ball_point(point, radius)
-        return self.indices(np.array(rows, dtype=np.intp), limit)
-
-    def firsts(self, rows: IndexArray) -> IndexArray:
-        """The first index among the equal points that each row stands for."""
-        if self.distinct == self.size:
-            return rows + self.start
-        return self._members[self._starts[rows]]
-
-    def indices(self, rows: IndexArray, limit: int) -> IndexArray:
-        """Indices of the points that rows stand for, the first ``limit`` of equal ones."""
-        if self.distinct == self.size:
-            return rows + self.start
-        starts, sizes = self._starts[rows], np.minimum(self._sizes[rows], limit)
-        offsets = np.arange(sizes.sum())
-        offsets += np.repeat(starts - sizes.cumsum() + sizes, sizes)
-        return self._members[offsets]
 
 
 class NearestNeighbours:
@@ -157,8 +106,9 @@ class NearestNeighbours:
         if buffer_size is None:  # About where brute force costs as much as one more tree.
             buffer_size = max(1024, 16384 // dimension)
         self._count = self._in_trees = 0
-        self._trees: list[_Tree] = []  # Over consecutive ranges of indices.
-        self._storage: FloatArray = np.empty((64, dimension))
+        self._trees: list[Tree] = []  # Over consecutive ranges of indices.
+        self._newest: Tree | None = None  # Over the newest, where many asked for one each.
+        self._storage: FloatArray = np.zeros((64, dimension))
         # The newest points again, a row per coordinate: contiguous for brute force.
         self._buffer: FloatArray = np.empty((dimension, _at_least_one("buffer_size", buffer_size)))
 
@@ -205,39 +155,76 @@ class NearestNeighbours:
         Row i is to the last bit what `query` returns for ``points[i]``.
         """
         checked, k = self._check(points, 2), min(_at_least_one("k", k), self._count)
-        distances = np.empty((len(checked), k))
-        indices = np.empty((len(checked), k), dtype=np.intp)
-        answers = [tree.nearest(checked, k) for tree in self._trees]
-        left: Sequence[int] = range(len(checked))
-        if k == 1 and len(checked) >= _WORTH_A_TREE:
-            left = self._nearest_together(checked, answers, distances, indices)
-        for i in left:
-            answer = [(rows[i], horizon[i]) for rows, horizon in answers]
-            distances[i], indices[i] = self._select(checked[i], answer, k)
+        if len(checked) < _MANY or not k:
+            found = [self.query(point, k) for point in checked] if k else []
+            shape = len(checked), k
+            return (
+                np.array([one for one, _ in found], dtype=np.float64).reshape(shape),
+                np.array([one for _, one in found], dtype=np.intp).reshape(shape),
+            )
+        if k == 1:
+            trees = self._all_trees()
+        else:
+            self._settle()
+            trees = self._trees
+        answers = [tree.nearest(checked, k) for tree in trees]
+        distances, indices = self._together(checked, trees, answers, k)
+        # A tree whose answer ends within reach may hide points as near as the k-th.
+        reach = distances[:, -1] * _SLACK + _TINY
+        doubtful = np.zeros(len(checked), dtype=np.bool_)
+        for _, horizon in answers:
+            doubtful |= horizon <= reach
+        for i in np.flatnonzero(doubtful).tolist():
+            distances[i], indices[i] = self.query(checked[i], k)
         return distances, indices
 
-    def _nearest_together(
-        self,
-        points: FloatArray,
-        answers: list[_Answer],
-        distances: FloatArray,
-        indices: IndexArray,
-    ) -> Sequence[int]:
-        """Fill in the one nearest to each of many points; return the rows left, for ties."""
-        trees, answers = [*self._trees], [*answers]
-        if self._count > self._in_trees:
-            newest = _Tree(self._storage[self._in_trees : self._count], self._in_trees)
-            trees.append(newest)
-            answers.append(newest.nearest(points, 1))
-        parts = [tree.firsts(rows[:, 0]) for tree, (rows, _) in zip(trees, answers, strict=True)]
-        found = np.array(parts)
-        apart = np.array([_rowwise_distances(self._storage[part], points) for part in parts])
-        order = np.lexsort((found, apart), axis=0)[0]
-        every = np.arange(len(points))
-        distances[:, 0], indices[:, 0] = apart[order, every], found[order, every]
-        reach = distances[:, 0] * _SLACK + _TINY
-        doubtful = np.any([horizon <= reach for _, horizon in answers], axis=0)
-        return [int(i) for i in np.flatnonzero(doubtful)]
+    def _together(
+        self, points: FloatArray, trees: Sequence[Tree], answers: list[Answer], k: int
+    ) -> Neighbours:
+        """The k nearest to each of many points, among what trees propose and the newest."""
+        parts = [tree.members(rows, k) for tree, (rows, _) in zip(trees, answers, strict=True)]
+        parts = parts or [np.empty((len(points), 0), dtype=np.intp)]
+        found = parts[0] if len(parts) == 1 else np.concatenate(parts, axis=1)
+        squares = self._squares(found, points)
+        if not trees or trees[-1].start + trees[-1].size < self._count:
+            bounds = np.full(len(points), math.inf)
+            if squares.shape[1] >= k:
+                bounds = np.partition(squares, k - 1, axis=1)[:, k - 1]
+            near, apart = self._newest_within(points, bounds)
+            found = np.concatenate((found, near), axis=1)
+            squares = np.concatenate((squares, apart), axis=1)
+        distances = np.sqrt(squares)
+        order = distances.argsort(axis=1)
+        sorted_ = np.take_along_axis(distances, order[:, : k + 1], axis=1)
+        # Of equally distant ones the oldest; that there are any is rare.
+        tied = np.flatnonzero((sorted_[:, 1:] == sorted_[:, :-1]).any(axis=1))
+        order[tied] = np.lexsort((found[tied], distances[tied]), axis=1)
+        return sorted_[:, :k], np.take_along_axis(found, order[:, :k], axis=1)
+
+    def _squares(self, found: IndexArray, points: FloatArray) -> FloatArray:
+        """Squared distances of found points, shape (m, w), to each of m; infinite for none."""
+        columns = np.moveaxis(self._storage.take(found, axis=0), -1, 0)
+        squares = _squares_between(columns, points)
+        squares[found < 0] = math.inf
+        return squares
+
+    def _newest_within(
+        self, points: FloatArray, bounds: FloatArray
+    ) -> tuple[IndexArray, FloatArray]:
+        """The newest within these squared distances of each: indices and squares, in lines."""
+        newest = self._buffer[:, None, : self._count - self._in_trees]
+        step = max(1, _BLOCK // max(1, newest.shape[2]))
+        counts, places, apart = [], [], []
+        for start in range(0, len(points), step):
+            some = slice(start, start + step)
+            squares = _squares_between(newest, points[some])
+            near = squares <= bounds[some, None] * _SLACK
+            counts.append(near.sum(axis=1))
+            places.append(near.nonzero()[1])
+            apart.append(squares[near])
+        numbers = np.concatenate(counts)
+        found = np.concatenate(places) + self._in_trees
+        return in_lines(found, numbers, -1), in_lines(np.concatenate(apart), numbers, math.inf)
 
     def gaps(self, points: ArrayLike) -> FloatArray:
         """How far each of m points, shape (m, d), is from the nearest: shape (m,).
@@ -245,17 +232,34 @@ class NearestNeighbours:
         Faster than to find which one that is; infinite while there is none.
         """
         checked = self._check(points, 2)
-        newest = self._buffer[:, : self._count - self._in_trees]
-        squares = np.full(len(checked), math.inf)
-        if newest.shape[1]:
+        squares, trees = np.full(len(checked), math.inf), self._trees
+        if len(checked) >= _MANY:
+            trees = self._all_trees()
+        elif self._count > self._in_trees:
+            newest = self._buffer[:, : self._count - self._in_trees]
             squares[:] = [_squared_distances(newest, point).min() for point in checked]
-        for tree in self._trees:
+        for tree in trees:
             rows, _ = tree.nearest(checked, 1)  # the two nearest: trees round in their own way
             for candidates in tree.firsts(rows).T:
                 apart = _squared_distances(self._storage.take(candidates, axis=0).T, checked.T)
                 np.minimum(squares, apart, out=squares)
         gaps: FloatArray = np.sqrt(squares)
         return gaps
+
+    def _all_trees(self) -> list[Tree]:
+        """Trees over all points, one over the newest among them, until there are newer ones."""
+        if self._count == self._in_trees:
+            return self._trees
+        if self._newest is None or self._newest.start + self._newest.size < self._count:
+            newest = self._storage[self._in_trees : self._count]
+            self._newest = Tree(newest, self._in_trees)
+        return [*self._trees, self._newest]
+
+    def _settle(self) -> None:
+        """Move the newest points into trees if many who ask would look at too many of them."""
+        worth = min(max(_FEW_NEWEST, self._in_trees // 4), _MANY_NEWEST)
+        if self._count - self._in_trees >= worth:
+            self._merge()
 
     def within(self, point: ArrayLike, radius: float) -> Neighbours:
         """Find all at most ``radius`` from a point, shape (d,): distances and indices, sorted."""
@@ -268,7 +272,7 @@ class NearestNeighbours:
         found = distances.searchsorted(radius, side="right")
         return distances[:found], indices[:found]
 
-    def _select(self, point: FloatArray, answers: list[_Answer], k: int) -> Neighbours:
+    def _select(self, point: FloatArray, answers: list[Answer], k: int) -> Neighbours:
         """The k nearest, given what each tree answered."""
         if not answers:
             return self._rank(point, [], k, math.inf)
@@ -306,12 +310,12 @@ class NearestNeighbours:
         start, stop = self._in_trees, self._count
         while self._trees and self._trees[-1].size < _MERGE_RATIO * (stop - start):
             start = self._trees.pop().start
-        self._trees.append(_Tree(self._storage[start:stop], start))
+        self._trees.append(Tree(self._storage[start:stop], start))
         self._in_trees = stop
 
     def _reserve(self, count: int) -> None:
         while count > len(self._storage):
-            self._storage = np.concatenate((self._storage, np.empty_like(self._storage)))
+            self._storage = np.concatenate((self._storage, np.zeros_like(self._storage)))
 
     def _check(self, points: ArrayLike, ndim: int) -> FloatArray:
         checked = np.asarray(points, dtype=np.float64)

@@ -2,18 +2,24 @@
 
 from __future__ import annotations
 
-import math
 from collections import deque
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from functools import partial
 from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
+from sgim.outcome.gain_table import GainTable
 from sgim.outcome.interest import EpisodeReport
-from sgim.outcome.partition import Partition, Region
+from sgim.outcome.partition import BoolArray, Partition, Region
 from sgim.records import Goal
 from sgim.spaces import FloatArray, Space
 from sgim.streams import Streams
+
+IntArray = NDArray[np.int64]
+
+_BELOW_1 = 1.0 - 1e-12
 
 Lacks = Callable[[str, FloatArray, Any], FloatArray]
 """What is lacking now, in [0, 1], for goals of a kind in a context: minus the competence.
@@ -96,27 +102,36 @@ class ExpectedGain(Partition):
         self.window = window
         self.prior = prior
         self.confidence = confidence
-        self.sharpness = sharpness
         self.uniform = uniform
         self.goals = goals
         self._names = tuple(modes)
+        self._kinds = tuple(self.spaces)
+        dimension = max(box.dimension for box in self.spaces.values())
+        self._draws = 2 + dimension
+        self._table = GainTable(self.costs, dimension, confidence, sharpness)
         self._recent = {
             kind: [deque[float](maxlen=kind_window) for _ in modes] for kind in self.spaces
         }
-        self._lack = np.ones(64)
-        self._shares = np.full((64, len(modes)), prior)
-        self._weights = np.zeros((64, len(modes)))
-        self._totals = np.zeros(64)
-        self._draws = 2 + max(box.dimension for box in self.spaces.values())
+        # The shares of each region's attempts by each mode, oldest first, a row a region.
+        self._attempted: list[list[list[float]]] = []
+        self._priors = {kind: np.full(len(modes), float(prior)) for kind in self.spaces}
         for kind in self.spaces:
-            root = self.plant(kind, [])
-            self._reserve()
-            self._weigh(root)
+            self._enter(self.plant(kind, []))
+
+    def _enter(self, region: Region) -> None:
+        """Note a new region in the table."""
+        d, row = self.spaces[region.kind].dimension, region.leaf
+        kind = self._kinds.index(region.kind)
+        self._table.enter(row, kind, region.low[:d], region.high[:d])
+        self._table.expect(row, self._priors[region.kind])
+        if row == len(self._attempted):
+            self._attempted.append([])
+        self._attempted[row] = [[] for _ in self.modes]
 
     def gains(self) -> FloatArray:
         """The gain expected of a movement in every leaf by every mode, ``(leaves, modes)``."""
-        n = len(self.leaves)
-        gains: FloatArray = self._lack[:n, None] * self._shares[:n] / self.costs
+        n, table = len(self.leaves), self._table
+        gains: FloatArray = table.lack[:n, None] * table.shares[:n] / self.costs
         return gains
 
     def update(self, report: EpisodeReport) -> None:
@@ -131,113 +146,132 @@ class ExpectedGain(Partition):
         if mode is None or place is None:
             return
         region = self.region_of(report.chosen.kind, place)
+        lacking = float(self._table.lack[region.leaf])
         before = min(-report.before, 1.0)  # more, where gains in earlier contexts are added
         kept = _kept_to_its_goal(report)
-        usual = float(self._lack[region.leaf]) if region.records or not kept else before
+        usual = lacking if region.records or not kept else before
         lack = max(before, usual)
         gain = report.after - report.before
         share = gain / (lack * report.movements) if lack > 0 else 0.0
         found = before if kept else usual
         region.records.append(Attempt(place, found, share, mode))
-        self._recent[region.kind][mode].append(share)
+        recent = self._recent[region.kind][mode]
+        recent.append(share)
+        self._priors[region.kind][mode] = (sum(recent) + self.confidence * self.prior) / (
+            len(recent) + self.confidence
+        )
+        shares = self._attempted[region.leaf]
+        shares[mode].append(share)
+        changed = {mode}
         if len(region.records) > self.capacity:
-            cut = self.best_cut(region, region.records, _mean_gain)
+            cut = self.best_cut(region, region.records, partial(_gaps, region.records))
             if cut is not None:
                 self._split(region, *cut)
                 return
-            del region.records[0]
-        self._weigh(region)
+            first = region.records.pop(0).mode
+            del shares[first][0]
+            changed.add(first)
+        self._weigh(region, changed)
 
     def _split(self, region: Region, axis: int, cut: float) -> None:
         children = self.divide(region, axis, cut)
-        self._reserve()
-        self._lack[children[1].leaf] = self._lack[children[0].leaf]
+        for child in children:
+            self._enter(child)
+        self._table.lack[children[1].leaf] = self._table.lack[children[0].leaf]
         for attempt in region.records:
-            children[attempt.place[axis] > cut].records.append(attempt)
+            child = children[attempt.place[axis] > cut]
+            child.records.append(attempt)
+            self._attempted[child.leaf][attempt.mode].append(attempt.share)
         region.records = []
         for child in children:
-            self._weigh(child)
+            self._weigh(child, range(len(self.costs)))
 
-    def _shrunk(self, shares: Sequence[float] | deque[float], prior: float) -> float:
-        return (sum(shares) + self.confidence * prior) / (len(shares) + self.confidence)
-
-    def _weigh(self, region: Region) -> None:
-        """Estimate what is lacking and the modes' shares; weigh the modes by gain and volume."""
-        row, recent = region.leaf, self._recent[region.kind]
+    def _weigh(self, region: Region, modes: Iterable[int]) -> None:
+        """Estimate what is lacking in a region, and the shares of these modes there."""
+        row, table, shares = region.leaf, self._table, self._attempted[region.leaf]
         lately = region.records[-self.window :]
         if lately:
-            self._lack[row] = sum(a.lack for a in lately) / len(lately)
-        here: list[list[float]] = [[] for _ in recent]
-        for attempt in region.records:
-            here[attempt.mode].append(attempt.share)
-        shares = self._shares[row]
-        for mode, own in enumerate(here):
-            prior = self._shrunk(recent[mode], self.prior)
-            shares[mode] = self._shrunk(own[-self.window :], prior) if own else prior
-        values = np.maximum(shares / self.costs, 0.0)
-        best = float(values.max())
-        if best > 0:
-            values = values * (values / best) ** (self.sharpness - 1)
-        d = self.spaces[region.kind].dimension
-        volume = math.prod((region.high[:d] - region.low[:d]).tolist())
-        self._weights[row] = weights = values * (volume * float(self._lack[row]))
-        self._totals[row] = weights.sum()
-
-    def _reserve(self) -> None:
-        if len(self.leaves) > len(self._lack):
-            self._lack = np.concatenate((self._lack, np.ones_like(self._lack)))
-            self._shares = np.concatenate((self._shares, np.empty_like(self._shares)))
-            self._weights = np.concatenate((self._weights, np.zeros_like(self._weights)))
-            self._totals = np.concatenate((self._totals, np.zeros_like(self._totals)))
+            table.lack[row] = sum([attempt.lack for attempt in lately]) / len(lately)
+        for mode in modes:
+            table.note(row, mode, shares[mode][-self.window :])
+        table.expect(row, self._priors[region.kind])
 
     def choose(
         self, rng: np.random.Generator, modes: Sequence[str], context: Any
     ) -> tuple[Goal, str]:
         """Choose the most promising of a few goals, each drawn with one of ``modes``."""
-        offered = [self.modes[mode] for mode in modes]
-        everything = len(offered) == len(self.modes)
-        leaves = self.present(context)
-        if everything and self.context_space is None:
-            totals = self._totals[: len(self.leaves)]
-        else:
-            totals = self._weights[np.ix_(leaves, offered)].sum(axis=1)
-        cumulated = totals.cumsum()
-        draws = []
-        for numbers in rng.random((self.goals, self._draws)).tolist():
-            rule, pick, *shares = numbers
-            if rule < self.uniform:
-                kind = tuple(self.spaces)[int(pick * len(self.spaces))]
-                place = shares[: self.spaces[kind].dimension]
-                region, pick = self._around(kind, place, context), rule / self.uniform
-            else:
-                wanted = pick * float(cumulated[-1])
-                i = min(int(cumulated.searchsorted(wanted, "right")), len(cumulated) - 1)
-                if wanted > 0.0:
-                    pick = min((cumulated[i] - wanted) / totals[i], 1.0 - 1e-12)
-                else:  # as also where nothing is expected anywhere
-                    i, pick = int(pick * len(totals)), rule
-                region = self.leaves[leaves[i]]
-                corners = zip(shares, region.low.tolist(), region.high.tolist(), strict=False)
-                place = [low + share * (high - low) for share, low, high in corners]
-                del place[self.spaces[region.kind].dimension :]
-            draws.append((region, place, self._mode(region, offered, pick)))
-        region, place, mode = draws[self._best(draws, context)] if len(draws) > 1 else draws[0]
-        goal = Goal(region.kind, self.spaces[region.kind].decode(np.array(place)))
-        return goal, self._names[mode]
+        return self.choose_all([rng], modes, [context])[0]
 
-    def _mode(self, region: Region, offered: list[int], pick: float) -> int:
-        """One of the modes offered, with probability proportional to its weight in the region."""
-        if len(offered) == 1:
-            return offered[0]
-        row = self._weights[region.leaf].tolist()
-        left = pick * sum(row[mode] for mode in offered)
-        if left == 0.0:  # as also where nothing is expected of any
-            return offered[int(pick * len(offered))]
-        for mode in offered:
-            left -= row[mode]
-            if left < 0:
-                return mode
-        return offered[-1]
+    def choose_all(
+        self, rngs: Sequence[np.random.Generator], modes: Sequence[str], contexts: Sequence[Any]
+    ) -> list[tuple[Goal, str]]:
+        """As `choose` for several episodes."""
+        offered = np.array([self.modes[mode] for mode in modes])
+        if self.context_space is None:
+            return self._chosen(rngs, offered, None)
+        pairs = zip(rngs, contexts, strict=True)
+        return [self._chosen([rng], offered, context)[0] for rng, context in pairs]
+
+    def _chosen(
+        self, rngs: Sequence[np.random.Generator], offered: IntArray, context: Any
+    ) -> list[tuple[Goal, str]]:
+        """Draw a few goals for each generator, and take the best of each few."""
+        numbers = np.array([rng.random((self.goals, self._draws)) for rng in rngs])
+        rows, places, picks = self._drawn(numbers.reshape(-1, self._draws), offered, context)
+        modes = self._modes_drawn(rows, offered, picks)
+        kinds = self._table.kind[rows].tolist()
+        chosen = self._best(rows, places, modes, kinds, context)
+        named: list[tuple[Goal, str]] = []
+        for i, mode in zip(chosen, modes[chosen].tolist(), strict=True):
+            kind = self._kinds[kinds[i]]
+            space = self.spaces[kind]
+            point = space.decode(places[i, : space.dimension])
+            named.append((Goal(kind, point), self._names[mode]))
+        return named
+
+    def _drawn(
+        self, numbers: FloatArray, offered: IntArray, context: Any
+    ) -> tuple[IntArray, FloatArray, FloatArray]:
+        """Regions, places in them, and what is left of the draw of each, for the mode."""
+        table, (rules, picks, shares) = self._table, (numbers[:, 0], numbers[:, 1], numbers[:, 2:])
+        leaves: IntArray | None = None
+        if self.context_space is None and len(offered) == len(self.modes):
+            totals = table.totals[: len(self.leaves)]
+        else:
+            leaves = np.array(self.present(context))
+            totals = table.weights[np.ix_(leaves, offered)].sum(axis=1)
+        cumulated = totals.cumsum()
+        if cumulated[-1] > 0:
+            wanted = picks * cumulated[-1]
+            rows = np.minimum(cumulated.searchsorted(wanted, "right"), len(totals) - 1)
+            left = (cumulated[rows] - wanted) / np.maximum(totals[rows], 1e-300)
+            left = np.minimum(left, _BELOW_1)
+        else:  # nothing is expected anywhere
+            rows, left = (picks * len(totals)).astype(np.int64), rules.copy()
+        if leaves is not None:
+            rows = leaves[rows]
+        lows = table.low[rows]
+        places = lows + shares * (table.high[rows] - lows)
+        for i, rule in enumerate(rules.tolist()):
+            if rule < self.uniform:
+                kind = self._kinds[int(picks[i] * len(self._kinds))]
+                place = shares[i, : self.spaces[kind].dimension].tolist()
+                rows[i], places[i] = self._around(kind, place, context).leaf, shares[i]
+                left[i] = rule / self.uniform
+        return rows, places, left
+
+    def _modes_drawn(self, rows: IntArray, offered: IntArray, picks: FloatArray) -> IntArray:
+        """One of the modes offered for each region, by their weights there."""
+        weights = self._table.weights[rows]
+        if len(offered) < len(self.modes):
+            weights = weights[:, offered]
+        cumulated = weights.cumsum(axis=1)
+        totals = cumulated[:, -1]
+        places = (cumulated <= (picks * totals)[:, None]).sum(axis=1)
+        if not totals.all():  # nothing is expected of any
+            places = np.where(totals > 0, places, (picks * len(offered)).astype(np.int64))
+        modes: IntArray = offered[np.minimum(places, len(offered) - 1)]
+        return modes
 
     def _around(self, kind: str, place: list[float], context: Any) -> Region:
         if self.context_space is None:
@@ -245,20 +279,34 @@ class ExpectedGain(Partition):
         here = np.clip(self.context_space.encode(context), 0.0, 1.0).tolist()
         return self.region_of(kind, [*place, *here])
 
-    def _best(self, draws: list[tuple[Region, list[float], int]], context: Any) -> int:
-        """Which of the goals drawn has the largest expected gain, by what is lacking there now."""
-        gains = [0.0] * len(draws)
-        for kind in dict.fromkeys(region.kind for region, *_ in draws):
-            members = [i for i, (region, *_) in enumerate(draws) if region.kind == kind]
-            places = np.array([draws[i][1] for i in members])
-            for i, lack in zip(members, self.lacks(kind, places, context).tolist(), strict=True):
-                region, _, mode = draws[i]
-                gains[i] = lack * self._shares[region.leaf, mode] / self.costs[mode]
-        return gains.index(max(gains))
+    def _best(
+        self,
+        rows: IntArray,
+        places: FloatArray,
+        modes: IntArray,
+        kinds: list[int],
+        context: Any,
+    ) -> list[int]:
+        """Which of each few goals has the largest expected gain, by what is lacking there now."""
+        if self.goals == 1:
+            return list(range(len(rows)))
+        gains = self._table.shares[rows, modes] / self.costs[modes]
+        for kind in dict.fromkeys(kinds):
+            members = [i for i, other in enumerate(kinds) if other == kind]
+            name = self._kinds[kind]
+            goals = places[members, : self.spaces[name].dimension]
+            gains[members] *= self.lacks(name, goals, context)
+        best = gains.reshape(-1, self.goals).argmax(axis=1).tolist()
+        return [self.goals * i + place for i, place in enumerate(best)]
 
 
-def _mean_gain(attempts: Sequence[Attempt]) -> float:
-    return sum(a.lack * a.share for a in attempts) / len(attempts)
+def _gaps(attempts: Sequence[Attempt], below: BoolArray) -> FloatArray:
+    """How far apart the mean gains of two parts of the attempts are, for several ways to part."""
+    gains = np.array([attempt.lack * attempt.share for attempt in attempts])[:, None]
+    counts = below.sum(axis=0)
+    lower, upper = np.where(below, gains, 0.0).sum(axis=0), np.where(below, 0.0, gains).sum(axis=0)
+    gaps: FloatArray = np.abs(lower / counts - upper / (len(attempts) - counts))
+    return gaps
 
 
 def _kept_to_its_goal(report: EpisodeReport) -> bool:

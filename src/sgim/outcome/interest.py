@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Any, Protocol
 
 import numpy as np
 
+from sgim.frozen import frozen
 from sgim.records import Demonstration, Goal
+from sgim.spaces import Choices
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@frozen
 class EpisodeReport:
     """What an episode came to.
 
@@ -53,6 +54,21 @@ class InterestMap(Protocol):
         ...
 
 
+def choose_goals(
+    interest: InterestMap,
+    rngs: Sequence[np.random.Generator],
+    modes: Sequence[str],
+    contexts: Sequence[Any],
+) -> list[tuple[Goal, str]]:
+    """`InterestMap.choose` for several episodes: by the map's ``choose_all`` if it has one."""
+    together = getattr(interest, "choose_all", None)
+    if together is None:
+        pairs = zip(rngs, contexts, strict=True)
+        return [interest.choose(rng, modes, context) for rng, context in pairs]
+    chosen: list[tuple[Goal, str]] = together(rngs, modes, contexts)
+    return chosen
+
+
 class UniformGoals:
     """Every kind, goal and mode alike: no interest at all.
 
@@ -74,3 +90,26 @@ class UniformGoals:
         kind = kinds[int(rng.integers(len(kinds)))] if len(kinds) > 1 else kinds[0]
         mode = modes[int(rng.integers(len(modes)))] if len(modes) > 1 else modes[0]
         return Goal(kind, self.spaces[kind].sample(rng)), mode
+
+
+class Favourite:
+    """The first of the labels in half of the episodes, else any; every mode alike.
+
+    Args:
+        kind: The goal kind.
+        labels: Its space.
+    """
+
+    def __init__(self, kind: str, labels: Choices) -> None:
+        self.kind = kind
+        self.labels = labels
+
+    def update(self, report: EpisodeReport) -> None:
+        """Nothing is learned."""
+
+    def choose(
+        self, rng: np.random.Generator, modes: Sequence[str], context: Any
+    ) -> tuple[Goal, str]:
+        """Draw a label and a mode."""
+        label = self.labels.labels[0] if rng.random() < 0.5 else self.labels.sample(rng)
+        return Goal(self.kind, label), modes[int(rng.integers(len(modes)))]

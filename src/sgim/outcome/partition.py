@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any, Protocol, TypeVar
+from typing import Any, Protocol
 
 import numpy as np
+from numpy.typing import NDArray
 
 from sgim.records import Goal
 from sgim.spaces import Box, FloatArray, Space
 from sgim.streams import Streams
+
+BoolArray = NDArray[np.bool_]
 
 
 class Placed(Protocol):
@@ -19,9 +22,6 @@ class Placed(Protocol):
     def place(self) -> tuple[float, ...]:
         """Goal coordinates in the unit box, then context coordinates in theirs."""
         ...
-
-
-Attempt = TypeVar("Attempt", bound=Placed)
 
 
 class Region:
@@ -108,9 +108,10 @@ class Partition:
         space = self.spaces.get(goal.kind)
         if space is None:
             return None
-        place: list[float] = space.encode(goal.point).tolist()
-        if not all(0.0 <= x <= 1.0 for x in place):
-            return None
+        place = space.encoded(goal.point)
+        for x in place:
+            if not 0.0 <= x <= 1.0:
+                return None
         if self.context_space is not None:  # measured ones may lie a little outside
             place += np.clip(self.context_space.encode(context), 0.0, 1.0).tolist()
         return tuple(place)
@@ -130,31 +131,38 @@ class Partition:
     def best_cut(
         self,
         region: Region,
-        records: Sequence[Attempt],
-        interest: Callable[[Sequence[Attempt]], float],
+        records: Sequence[Placed],
+        gaps: Callable[[BoolArray], FloatArray],
     ) -> tuple[int, float] | None:
         """Where the sizes of both parts times the gap of their interests is largest.
 
         Candidates are random, as in section 3.1.4.
 
+        Args:
+            region: The region to cut.
+            records: What was attempted there, n of it.
+            gaps: From c ways to part the records, shape ``(n, c)``, true below the cut, to how
+                far apart the interests of the two parts are, shape ``(c,)``.
+
         Returns:
             The axis and the cut; None if no candidate parts the records.
         """
         rng = self.streams("interest/split", len(self.leaves))
-        best_quality, best = -1.0, None
-        parted: set[tuple[int, int]] = set()
-        axes = rng.integers(len(region.low), size=self.candidates).tolist()
-        for axis, share in zip(axes, rng.random(self.candidates).tolist(), strict=True):
-            cut = region.low[axis] + share * (region.high[axis] - region.low[axis])
-            below = [r for r in records if r.place[axis] <= cut]
-            if 0 < len(below) < len(records) and (axis, len(below)) not in parted:
-                parted.add((axis, len(below)))  # another cut that parts them alike is no better
-                above = [r for r in records if r.place[axis] > cut]
-                gap = abs(interest(below) - interest(above))
-                quality = len(below) * len(above) * gap
-                if quality > best_quality:
-                    best_quality, best = quality, (axis, float(cut))
-        return best
+        axes = rng.integers(len(region.low), size=self.candidates)
+        shares = rng.random(self.candidates)
+        cuts = region.low[axes] + shares * (region.high[axes] - region.low[axes])
+        below = np.array([record.place for record in records])[:, axes] <= cuts
+        counts = below.sum(axis=0)
+        parted: dict[tuple[int, int], int] = {}
+        for i, (axis, count) in enumerate(zip(axes.tolist(), counts.tolist(), strict=True)):
+            if 0 < count < len(records):  # another cut that parts them alike is no better
+                parted.setdefault((axis, count), i)
+        if not parted:
+            return None
+        chosen = list(parted.values())
+        sizes = counts[chosen] * (len(records) - counts[chosen])
+        best = chosen[int((sizes * gaps(below[:, chosen])).argmax())]
+        return int(axes[best]), float(cuts[best])
 
     def divide(self, region: Region, axis: int, cut: float) -> tuple[Region, Region]:
         """Split a leaf: the lower half keeps its row, the upper half gets the next one.

@@ -65,19 +65,22 @@ class MeanProgress:
 
 
 class CompetenceChange:
-    """Absolute change of competence over a sliding window (thesis eq. 3.4).
+    """Absolute change of competence over a sliding window (thesis eq. 2.2 and 3.4).
 
     With fewer records than the window is long, the halves are equal and as long as can be, and
     an odd oldest record is left out.
 
     Args:
         window: ζ, even.
+        whole: Whether to divide by the window's length however few records there are, so that
+            interest grows with them; else by the length of both halves.
     """
 
-    def __init__(self, *, window: int = 20) -> None:
+    def __init__(self, *, window: int = 20, whole: bool = False) -> None:
         if window < 2 or window % 2:
             raise ValueError(f"window is {window}, expected an even number of 2 or more")
         self.window = window
+        self.whole = whole
 
     def progress(self, report: EpisodeReport) -> float:
         """Competence gained in the episode."""
@@ -90,4 +93,4 @@ class CompetenceChange:
             return 0.0
         older = math.fsum(r.competence for r in records[-2 * half : -half])
         newer = math.fsum(r.competence for r in records[-half:])
-        return abs(older - newer) / (2 * half)
+        return abs(older - newer) / (self.window if self.whole else 2 * half)

@@ -8,7 +8,7 @@ from typing import Any, Literal
 import numpy as np
 
 from sgim.outcome.interest import EpisodeReport
-from sgim.outcome.partition import Partition, Region
+from sgim.outcome.partition import BoolArray, Partition, Region
 from sgim.outcome.progress import InterestMeasure, Record
 from sgim.outcome.weights import BlockSums
 from sgim.records import Goal
@@ -114,7 +114,15 @@ class RegionTree(Partition):
         self._sums.refresh(self._interest[: len(self.leaves)], region.leaf)
 
     def _split(self, region: Region, mode: int) -> bool:
-        best = self.best_cut(region, region.records[mode], self.measure.interest)
+        records: list[Record] = region.records[mode]
+
+        def gap(below: BoolArray) -> float:
+            parts: tuple[list[Record], list[Record]] = [], []
+            for record, is_below in zip(records, below.tolist(), strict=True):
+                parts[is_below].append(record)
+            return abs(self.measure.interest(parts[1]) - self.measure.interest(parts[0]))
+
+        best = self.best_cut(region, records, lambda ways: np.array([gap(w) for w in ways.T]))
         if best is None:
             return False
         axis, cut = best

@@ -60,7 +60,10 @@ class Explorer(Protocol):
     """Proposes policies for episodes and learns from what they produced.
 
     An explorer keeps what belongs to an episode in ``episode.state`` and draws random numbers
-    from ``episode.rng`` only.
+    from ``episode.rng`` only. It asks the model in `begin`, `moved` and `propose` only: when it
+    hears of a trial, the model may know the trials behind it in the same batch already.
+
+    One that has ``begin_all(episodes)`` prepares several at once by that.
     """
 
     def begin(self, episode: Episode) -> None:
@@ -90,3 +93,13 @@ class Explorer(Protocol):
     def finished(self, episode: Episode) -> bool:
         """Whether the episode has nothing left to gain, before its budget is used up."""
         ...
+
+
+def begin_all(explorer: Explorer, episodes: Sequence[Episode]) -> None:
+    """`Explorer.begin` for several episodes: by the explorer's ``begin_all`` if it has one."""
+    together = getattr(explorer, "begin_all", None)
+    if together is not None:
+        together(episodes)
+    else:
+        for episode in episodes:
+            explorer.begin(episode)

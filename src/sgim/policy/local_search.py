@@ -10,64 +10,72 @@ import numpy as np
 
 from sgim.policy.explorer import Episode
 from sgim.policy.model import NearestModel
-from sgim.records import Trial
+from sgim.records import Goal, Trial
 from sgim.spaces import Box, FloatArray
 
 _BLUR = 0.1  # Policies this much nearer than the farthest, squared, weigh alike: noise.
 _WIDEST = 1.0  # Of the standard deviation of a varied policy's coordinates in the unit box.
+_BLOCK = 32  # Episodes whose arrays are stacked at once, so that they stay in a cache.
+_MANY = 8  # Systems from which on to solve them all at once is faster.
 _SAME = 1e-20  # Of a squared distance between policies in the unit box.
 
 
 class _State:
-    """What an episode's search knows: trials near the goal, the episode's own among them."""
+    """What an episode's search knows: trials near the goal, the episode's own among them.
 
-    __slots__ = (
-        "best",
-        "costs",
-        "count",
-        "goal",
-        "keys",
-        "policies",
-        "proposed",
-    )
+    Args:
+        goal: The goal's key.
+        policies: Policies in the unit box, shape ``(room, dimension)``.
+        keys: What they produced, shape ``(room, key dimension)``.
+        costs: How far that is from the goal, shape ``(room,)``, nearest first.
+        count: How many of the rows are known.
+    """
+
+    __slots__ = ("best", "cost", "costs", "count", "goal", "keys", "policies", "proposed", "told")
 
     def __init__(
         self,
         goal: FloatArray,
         policies: FloatArray,
         keys: FloatArray,
-        distances: FloatArray,
-        room: int,
+        costs: FloatArray,
+        count: int,
     ) -> None:
-        n = self.count = len(policies)
         self.goal = goal
-        self.policies = np.zeros((room, policies.shape[1]))
-        self.keys = np.zeros((room, len(goal)))
-        self.policies[:n] = policies
-        self.keys[:n] = keys
-        self.costs: list[float] = distances.tolist()
-        self.best = 0 if n else -1
+        self.policies = policies
+        self.keys = keys
+        self.costs = costs
+        self.count = count
+        self.best = 0 if count else -1
+        self.cost = float(costs[0]) if count else 1.0
         self.proposed = policies[:0]
+        self.told: list[tuple[FloatArray, FloatArray, float]] = []
 
     def aim(self, goal: FloatArray) -> None:
         self.goal = goal
         offsets = self.keys[: self.count] - goal
-        self.costs = np.sqrt(np.einsum("ij,ij->i", offsets, offsets)).tolist()
+        self.costs[: self.count] = np.sqrt(np.einsum("ij,ij->i", offsets, offsets))
         if self.count:
-            self.best = min(range(self.count), key=self.costs.__getitem__)
+            self.best = int(self.costs[: self.count].argmin())
+            self.cost = float(self.costs[self.best])
 
-    def add(self, policy: FloatArray, key: FloatArray, cost: float) -> None:
+    def take_in(self) -> None:
+        """Add the trials that were told since the last proposal."""
+        for trial in self.told:
+            self._add(*trial)
+        self.told.clear()
+
+    def _add(self, policy: FloatArray, key: FloatArray, cost: float) -> None:
         n = self.count
         if n == len(self.policies):  # the farthest from the goal makes room
-            n = max(range(n), key=self.costs.__getitem__)
-            self.costs[n] = cost
+            n = int(self.costs.argmax())
         else:
             self.count = n + 1
-            self.costs.append(cost)
         self.policies[n] = policy
         self.keys[n] = key
-        if self.best < 0 or cost < self.costs[self.best]:
-            self.best = n
+        self.costs[n] = cost
+        if self.best < 0 or cost < self.cost:
+            self.best, self.cost = n, cost
 
 
 class LocalSearch:
@@ -122,21 +130,37 @@ class LocalSearch:
 
     def begin(self, episode: Episode) -> None:
         """Gather the remembered trials nearest to the goal."""
-        goal = episode.goal
-        assert goal is not None
-        memory = self.model.memory.kinds[goal.kind]
-        distances, rows = self.model.nearest(goal, episode.context)
-        episode.state = _State(
-            self.model.goal_key(goal, episode.context),
-            memory.encoded_policies(rows),
-            memory.keys.rows[rows],
-            distances,
-            self.model.neighbourhood + self.budget,
-        )
+        self.begin_all([episode])
+
+    def begin_all(self, episodes: Sequence[Episode]) -> None:
+        """As `begin` for several episodes."""
+        aimed: dict[str, list[tuple[Episode, Goal]]] = {}
+        for episode in episodes:
+            assert episode.goal is not None
+            aimed.setdefault(episode.goal.kind, []).append((episode, episode.goal))
+        for kind, members in aimed.items():
+            goals, contexts = [goal for _, goal in members], [e.context for e, _ in members]
+            memory = self.model.memory.kinds[kind]
+            found = self.model.nearest_all(goals, contexts)
+            # What follows the nearest makes room for the episode's own trials.
+            shape, near = (len(members), self.model.neighbourhood + self.budget), len(found[0][1])
+            rows, costs = np.zeros(shape, dtype=np.intp), np.zeros(shape)
+            rows[:, :near] = np.array([rows for _, rows in found])
+            costs[:, :near] = np.array([distances for distances, _ in found])
+            if near:
+                policies, keys = memory.encoded_policies(rows), memory.keys.rows.take(rows, axis=0)
+            else:
+                policies = np.zeros((*shape, self.space.dimension))
+                keys = np.zeros((*shape, memory.keys.width))
+            wanted = self.model.memory.keys(kind, [goal.point for goal in goals], contexts)
+            states = zip(wanted, policies, keys, costs, strict=True)
+            for (episode, _), state in zip(members, states, strict=True):
+                episode.state = _State(*state, near)
 
     def moved(self, episode: Episode) -> None:
         """Measure what is known against the goal in the new context."""
         assert episode.goal is not None
+        episode.state.take_in()
         episode.state.aim(self.model.goal_key(episode.goal, episode.context))
 
     def propose(self, episodes: Sequence[Episode]) -> list[Any]:
@@ -145,13 +169,16 @@ class LocalSearch:
         stepping: dict[int, list[int]] = {}
         for i, episode in enumerate(episodes):
             state: _State = episode.state
-            cost = min(1.0, state.costs[state.best]) if state.count else 1.0
+            state.take_in()
+            cost = min(1.0, state.cost)
             if state.count < 3 or episode.rng.random() < max(self.least_global, cost):
                 points[i] = episode.rng.random(self.space.dimension)
             else:
                 stepping.setdefault(len(state.goal), []).append(i)
-        for chosen in stepping.values():
-            points[chosen] = self._steps([episodes[i] for i in chosen])
+        for members in stepping.values():
+            for first in range(0, len(members), _BLOCK):
+                chosen = members[first : first + _BLOCK]
+                points[chosen] = self._steps([episodes[i] for i in chosen])
         clipped = np.minimum(np.maximum(points, 0.0), 1.0)
         for episode, point in zip(episodes, clipped, strict=True):
             episode.state.proposed = point
@@ -196,26 +223,29 @@ class LocalSearch:
         changes = np.einsum("bij,bij->bi", effects, effects)
         slopes = np.sqrt((changes * known).sum(axis=1) / (squares.sum(axis=1) + 1e-300))
         point: FloatArray = start[:, 0] + steps
-        for i, (episode, state) in enumerate(zip(episodes, states, strict=True)):
-            point[i] += self._variation(episode, state.costs[state.best], float(slopes[i]))
+        point += self._variations(episodes, slopes.tolist())
         return point
 
-    def _variation(self, episode: Episode, cost: float, slope: float) -> FloatArray:
-        """A random offset that should change the outcome by some share of the cost."""
-        least, most = self.variation
-        effect = cost * least * (most / least) ** episode.rng.random()
-        dimension = self.space.dimension
-        offset: FloatArray = episode.rng.standard_normal(dimension)
-        offset *= min(effect / (slope * math.sqrt(dimension) + 1e-300), _WIDEST)
-        return offset
+    def _variations(self, episodes: Sequence[Episode], slopes: list[float]) -> FloatArray:
+        """Random offsets that should each change the outcome by some share of the cost."""
+        (least, most), dimension = self.variation, self.space.dimension
+        offsets, scales = [], []
+        for episode, slope in zip(episodes, slopes, strict=True):
+            state, rng = episode.state, episode.rng
+            effect = state.cost * least * (most / least) ** rng.random()
+            scales.append(min(effect / (slope * math.sqrt(dimension) + 1e-300), _WIDEST))
+            offsets.append(rng.standard_normal(dimension))
+        varied: FloatArray = np.array(offsets)
+        varied *= np.array(scales)[:, None]
+        return varied
 
     def learn(self, episode: Episode, trial: Trial, competence: float | None) -> None:
-        """Add the trial to those near the goal, if it produced the goal's kind."""
+        """Keep the trial for the next proposal, if it produced the goal's kind."""
         assert episode.goal is not None
         key = self.model.key_of(trial, episode.goal.kind)
         if key is not None and competence is not None:
             state: _State = episode.state
-            state.add(state.proposed, key, -competence)
+            state.told.append((state.proposed, key, -competence))
 
     def refuse(self, episode: Episode) -> None:
         """Nothing to add: the next step is drawn anew."""
@@ -232,30 +262,36 @@ class LocalSearch:
 def _solved(squares: FloatArray, right: FloatArray) -> FloatArray:
     """Solve positive semidefinite systems, a little damped.
 
-    In plain Python: for the few coordinates of an outcome that is faster than LAPACK, and
-    elimination needs no pivots here.
+    For the few coordinates of an outcome that is faster than LAPACK, and elimination needs no
+    pivots here.
 
     Args:
         squares: Matrices, shape ``(b, n, n)``.
         right: Right-hand sides, shape ``(b, n)``.
     """
-    return np.array(
-        [_eliminated(m, r) for m, r in zip(squares.tolist(), right.tolist(), strict=True)]
-    )
+    n = right.shape[1]
+    if len(right) < _MANY:
+        rows, sides = squares.tolist(), right.tolist()
+        return np.array([_eliminated(m, r, n) for m, r in zip(rows, sides, strict=True)])
+    columns = [list(row) for row in squares.transpose(1, 2, 0).copy()]
+    return np.array(_eliminated(columns, list(right.T.copy()), n)).T
 
 
-def _eliminated(rows: list[list[float]], right: list[float]) -> list[float]:
-    n = len(rows)
-    damping = 1e-6 / n * sum(rows[i][i] for i in range(n)) + 1e-300
+def _eliminated(rows: list[list[Any]], right: list[Any], n: int) -> list[Any]:
+    """Solve by elimination; the entries are numbers, or arrays with an entry a system."""
+    trace = rows[0][0]
+    for i in range(1, n):
+        trace = trace + rows[i][i]
+    damping = 1e-6 / n * trace + 1e-300
     for i in range(n):
-        rows[i][i] += damping
+        rows[i][i] = rows[i][i] + damping
         for j in range(i):
             factor = rows[i][j] / rows[j][j]
             for k in range(j + 1, n):
-                rows[i][k] -= factor * rows[j][k]
-            right[i] -= factor * right[j]
+                rows[i][k] = rows[i][k] - factor * rows[j][k]
+            right[i] = right[i] - factor * right[j]
     for i in range(n - 1, -1, -1):
         for j in range(i + 1, n):
-            right[i] -= rows[i][j] * right[j]
-        right[i] /= rows[i][i]
+            right[i] = right[i] - rows[i][j] * right[j]
+        right[i] = right[i] / rows[i][i]
     return right

@@ -40,6 +40,42 @@ class CompetenceModel(Protocol):
         ...
 
 
+def learn_all(
+    model: CompetenceModel,
+    trials: Sequence[Trial],
+    goals: Sequence[Goal | None],
+    contexts: Sequence[Any],
+) -> list[float | None] | None:
+    """Learn from several trials at once, if the model can: if it has a ``learn_all`` of its own.
+
+    Args:
+        model: The model.
+        trials: The trials, in order.
+        goals: The goal that each one's episode pursues; None where nothing is to be said.
+        contexts: The context that each one's episode measures in.
+
+    Returns:
+        What `CompetenceModel.shown_by` says of each, or None if the model learns one by one.
+    """
+    together = getattr(model, "learn_all", None)
+    if together is None:
+        return None
+    shown: list[float | None] = together(trials, goals, contexts)
+    return shown
+
+
+def competences(
+    model: CompetenceModel, goals: Sequence[Goal], contexts: Sequence[Any]
+) -> list[float]:
+    """`CompetenceModel.competence` for several goals: by the model's ``competences`` if it can."""
+    together = getattr(model, "competences", None)
+    if together is None or len(goals) < 2:
+        pairs = zip(goals, contexts, strict=True)
+        return [float(model.competence(goal, context)) for goal, context in pairs]
+    values: list[float] = together(goals, contexts)
+    return values
+
+
 @runtime_checkable
 class InverseModel(Protocol):
     """Gives the best policy for a goal."""
@@ -73,14 +109,45 @@ class NearestModel:
     def __init__(self, memory: Memory, answering: Answering | None = None) -> None:
         self.memory = memory
         self.answering = Nearest() if answering is None else answering
-        self._cached: tuple[Goal, Any, int, tuple[FloatArray, IntArray]] | None = None
+        self._found: dict[int, tuple[Goal, Any, tuple[FloatArray, IntArray]]] = {}
+        self._found_among = 0
         self._goal: tuple[Goal | None, Any, FloatArray] = (None, None, np.empty(0))
-        self._last: Trial | None = None
+        self._last: tuple[Sequence[Trial], dict[tuple[int, str], FloatArray]] = ((), {})
 
     def update(self, trial: Trial) -> None:
         """Remember the trial."""
         self.memory.add(trial)
-        self._last = trial
+        kinds = self.memory.kinds
+        keys = {
+            (id(trial), kind): kinds[kind].keys.rows[-1]
+            for kind in trial.outcome
+            if kinds[kind].dimension is not None
+        }
+        self._last = (trial,), keys
+
+    def learn_all(
+        self, trials: Sequence[Trial], goals: Sequence[Goal | None], contexts: Sequence[Any]
+    ) -> list[float | None]:
+        """Remember the trials; for each, what `shown_by` says of it and its goal."""
+        producing = self.memory.extend(trials)
+        self._last = trials, {}
+        shown: list[float | None] = [None if goal is None else -1.0 for goal in goals]
+        for kind, members in producing.items():
+            memory = self.memory.kinds[kind]
+            if memory.dimension is None:
+                continue
+            keys = memory.keys.rows[-len(members) :]
+            for i, key in zip(members, keys, strict=True):
+                self._last[1][id(trials[i]), kind] = key
+            pairs = [(row, goals[i]) for row, i in enumerate(members)]
+            aimed = [(row, goal) for row, goal in pairs if goal is not None and goal.kind == kind]
+            if aimed:
+                rows = [row for row, _ in aimed]
+                where = [contexts[members[row]] for row in rows]
+                wanted = self.memory.keys(kind, [goal.point for _, goal in aimed], where)
+                for row, offset in zip(rows, keys[rows] - wanted, strict=True):
+                    shown[members[row]] = -min(1.0, math.sqrt(offset.dot(offset)))
+        return shown
 
     def goal_key(self, goal: Goal, context: Any) -> FloatArray:
         """The key of a goal in a context (see `KindMemory`)."""
@@ -92,24 +159,57 @@ class NearestModel:
         """The key of what a trial produced of this kind, if it did."""
         if kind not in trial.outcome:
             return None
-        if trial is self._last:
-            return self.memory.kinds[kind].keys.last
+        known = self._last[1].get((id(trial), kind))
+        if known is not None:
+            return known
         return self.memory.key(kind, trial.outcome[kind], trial.context)
 
     def nearest(self, goal: Goal, context: Any) -> tuple[FloatArray, IntArray]:
         """Distances and rows of the `neighbourhood` outcomes nearest to the goal."""
-        cached, size = self._cached, len(self.memory)
-        if cached and cached[0] is goal and cached[1] is context and cached[2] == size:
-            return cached[3]
+        if self._found_among == len(self.memory):
+            known = self._found.get(id(goal))
+            if known is not None and known[1] is context:
+                return known[2]
         key = self.goal_key(goal, context)
         found = self.memory.kinds[goal.kind].nearest(key, self.neighbourhood)
-        self._cached = (goal, context, size, found)
+        self._found, self._found_among = {id(goal): (goal, context, found)}, len(self.memory)
+        return found
+
+    def nearest_all(
+        self, goals: Sequence[Goal], contexts: Sequence[Any]
+    ) -> list[tuple[FloatArray, IntArray]]:
+        """As `nearest` for several goals, by one query for those of a kind."""
+        if len(goals) == 1:
+            return [self.nearest(goals[0], contexts[0])]
+        known = self._found if self._found_among == len(self.memory) else {}
+        found: list[Any] = [None] * len(goals)
+        asked: dict[str, list[int]] = {}
+        for i, (goal, context) in enumerate(zip(goals, contexts, strict=True)):
+            hit = known.get(id(goal))
+            if hit is not None and hit[1] is context:
+                found[i] = hit[2]
+            else:
+                asked.setdefault(goal.kind, []).append(i)
+        for kind, members in asked.items():
+            points, where = [goals[i].point for i in members], [contexts[i] for i in members]
+            keys = self.memory.keys(kind, points, where)
+            distances, rows = self.memory.kinds[kind].nearest_batch(keys, self.neighbourhood)
+            for i, *answer in zip(members, distances, rows, strict=True):
+                found[i] = tuple(answer)
+        entries = zip(goals, contexts, found, strict=True)
+        self._found = {id(goal): (goal, *others) for goal, *others in entries}
+        self._found_among = len(self.memory)
         return found
 
     def competence(self, goal: Goal, context: Any) -> float:
         """Minus the distance to the nearest outcome; −1 when the kind was never produced."""
         distances, _ = self.nearest(goal, context)
         return -min(1.0, float(distances[0])) if len(distances) else -1.0
+
+    def competences(self, goals: Sequence[Goal], contexts: Sequence[Any]) -> list[float]:
+        """As `competence` for several goals."""
+        found = self.nearest_all(goals, contexts)
+        return [-min(1.0, float(d[0])) if len(d) else -1.0 for d, _ in found]
 
     def lacks(self, kind: str, places: FloatArray, context: Any) -> FloatArray:
         """The cost of goals of a kind, in [0, 1]; 1 where it was never produced.
@@ -132,14 +232,6 @@ class NearestModel:
             return -1.0
         difference = key - self.goal_key(goal, context)
         return -min(1.0, math.sqrt(difference.dot(difference)))
-
-    def nearest_policy(self, goal: Goal, context: Any) -> Any:
-        """The policy of the nearest remembered outcome."""
-        _, rows = self.nearest(goal, context)
-        if not len(rows):
-            raise NoAnswerError(f"no trial has produced an outcome of kind {goal.kind!r} yet")
-        trials = self.memory.kinds[goal.kind].trials
-        return self.memory.policies[int(trials.rows[rows[0]])]
 
     def best_policy(self, goal: Goal, context: Any) -> Any:
         """The policy that the way of answering chooses."""

@@ -62,6 +62,7 @@ def nelder_mead(points: Sequence[FloatArray], values: Sequence[float | None]) ->
 class _State:
     search: Search
     point: FloatArray | None = None
+    cost: float | None = None  # of the point, once that is known
 
 
 class NelderMeadSearch:
@@ -119,17 +120,18 @@ class NelderMeadSearch:
             state: _State = episode.state
             if state.point is None:
                 state.point = next(state.search)
+            elif state.cost is not None:
+                state.point, state.cost = state.search.send(state.cost), None
             policies.append(self.space.decode(np.clip(state.point, 0.0, 1.0)))
         return policies
 
     def learn(self, episode: Episode, trial: Trial, competence: float | None) -> None:
-        """Send the trial's cost to the search."""
-        cost = 1.0 if competence is None else -competence
-        episode.state.point = episode.state.search.send(cost)
+        """Keep the trial's cost for the search."""
+        episode.state.cost = 1.0 if competence is None else -competence
 
     def refuse(self, episode: Episode) -> None:
         """A refused policy costs as much as any can."""
-        episode.state.point = episode.state.search.send(1.0)
+        episode.state.cost = 1.0
 
     def finished(self, episode: Episode) -> bool:
         """Whether the goal is reached within its task's tolerance."""

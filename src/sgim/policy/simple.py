@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -10,7 +10,7 @@ import numpy as np
 from sgim.errors import TeacherError
 from sgim.policy.explorer import Episode
 from sgim.policy.model import NearestModel
-from sgim.records import Trial
+from sgim.records import Goal, Trial
 from sgim.spaces import Box, FloatArray, Space
 
 
@@ -47,6 +47,21 @@ class RandomPolicies(Stateless):
     def propose(self, episodes: Sequence[Episode]) -> list[Any]:
         """One draw for each episode."""
         return [self.space.sample(e.rng) for e in episodes]
+
+
+class PolicyOfLabel(Stateless):
+    """Proposes the one policy there is for a label, where policies are choices and not vectors.
+
+    Args:
+        policies: Label → policy.
+    """
+
+    def __init__(self, policies: Mapping[str, Any]) -> None:
+        self.policies = dict(policies)
+
+    def propose(self, episodes: Sequence[Episode]) -> list[Any]:
+        """The policy of each episode's label."""
+        return [None if e.goal is None else self.policies[e.goal.point] for e in episodes]
 
 
 class Mimicry(Stateless):
@@ -116,14 +131,25 @@ class NoisyNearest(Stateless):
 
     def propose(self, episodes: Sequence[Episode]) -> list[Any]:
         """A variation of the nearest policy for each; a random policy while there is none."""
-        return [self._vary(e) for e in episodes]
-
-    def _vary(self, episode: Episode) -> Any:
-        goal, space = episode.goal, self.space
         memory = self.model.memory
-        if goal is None or len(memory) < self.bootstrap or not len(memory.kinds[goal.kind]):
-            return space.sample(episode.rng)
-        policy = self.model.nearest_policy(goal, episode.context)
+        aimed: dict[int, Goal] = {}
+        if len(memory) >= self.bootstrap:
+            for i, episode in enumerate(episodes):
+                if episode.goal is not None and len(memory.kinds[episode.goal.kind]):
+                    aimed[i] = episode.goal
+        policies: list[Any] = [None] * len(episodes)
+        if aimed:
+            goals = list(aimed.values())
+            found = self.model.nearest_all(goals, [episodes[i].context for i in aimed])
+            for i, goal, (_, rows) in zip(aimed, goals, found, strict=True):
+                policies[i] = memory.policies[int(memory.kinds[goal.kind].trials.rows[rows[0]])]
+        return [
+            self._vary(episode, policies[i]) if i in aimed else self.space.sample(episode.rng)
+            for i, episode in enumerate(episodes)
+        ]
+
+    def _vary(self, episode: Episode, policy: Any) -> Any:
+        space = self.space
         if not isinstance(space, Box):
             return policy if episode.rng.random() > self.noise else space.sample(episode.rng)
         return space.clip(

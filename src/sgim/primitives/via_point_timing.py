@@ -120,14 +120,14 @@ class Intervals:
 
 @dataclass(frozen=True)
 class EvenlySpaced:
-    """Via points at equal intervals; the movement's duration is the one parameter.
+    """Via points at equal intervals; the movement's duration is the one parameter, if any.
 
     The timing of the thesis's eq. 3.6: u₁ to u₄ at 0, δ/3, 2δ/3 and δ.
 
     Attributes:
         points: Number of via points, 2 or more.
         shortest: Least duration δ, in s.
-        longest: Greatest duration, in s.
+        longest: Greatest duration, in s; if it is the shortest, there is no parameter.
         width: Standard deviation of the weights as a share of the duration: σ = 1/(2 (width·δ)²).
 
     Raises:
@@ -141,7 +141,7 @@ class EvenlySpaced:
     width: float = 1 / 6
 
     def __post_init__(self) -> None:
-        _check(self.points, self.shortest, self.longest)
+        _check(self.points, self.shortest, self.longest, fixed=self.shortest == self.longest)
         least = 0.5 / (self.points - 1) / np.sqrt(2 * _LARGEST_EXPONENT)
         if not least <= self.width < np.inf:
             raise SpaceError(
@@ -151,28 +151,29 @@ class EvenlySpaced:
 
     @property
     def names(self) -> tuple[str, ...]:
-        """The name ``duration``."""
-        return ("duration",)
+        """The name ``duration``; none if it is fixed."""
+        return ("duration",) if self.shortest < self.longest else ()
 
     def schedule(self, parameters: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Equal parts of the duration; see `Timing.schedule`."""
-        durations = parameters[:, 0]
+        free = self.shortest < self.longest
+        durations = parameters[:, 0] if free else np.full(len(parameters), self.shortest)
         instants = durations[:, None] * (np.arange(self.points) / (self.points - 1))
         return instants, 0.5 / (self.width * durations) ** 2
 
     def starts(self, duration: float) -> Iterator[FloatArray]:
-        """The duration itself."""
-        yield np.array([duration])
+        """The duration itself, if it is a parameter."""
+        yield self.with_duration(np.empty(0), duration)
 
     def with_duration(self, parameters: FloatArray, duration: float) -> FloatArray:
-        """The duration itself."""
-        return np.clip([duration], self.shortest, self.longest)
+        """The duration itself, if it is a parameter."""
+        return np.clip([duration] * len(self.names), self.shortest, self.longest)
 
 
-def _check(points: int, shortest: float, longest: float) -> None:
+def _check(points: int, shortest: float, longest: float, fixed: bool = False) -> None:
     if points < 2:
         raise SpaceError(f"points is {points}, expected 2 or more via points")
-    if not 0 < shortest < longest < np.inf:
+    if not 0 < shortest < longest < np.inf and not (fixed and 0 < shortest < np.inf):
         raise SpaceError(
             f"times are between shortest={shortest:g} and longest={longest:g} s, "
             "expected 0 < shortest < longest"

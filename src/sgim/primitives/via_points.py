@@ -188,7 +188,7 @@ class ViaPoints:
 
     def _refined(self, times: FloatArray, recorded: FloatArray, start: FloatArray) -> FloatArray:
         """Timing parameters that fit better than ``start``, for a movement as long as it."""
-        if len(start) == 1:  # the duration alone decides
+        if len(start) <= 1:  # the duration alone decides
             return self.timing.with_duration(start, float(times[-1]))
         # SciPy's optimisers take long to import, and most runs never fit a trajectory.
         from scipy.optimize import least_squares

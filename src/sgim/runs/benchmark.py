@@ -4,16 +4,29 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Mapping, Sequence
-from typing import Any, Literal
+from typing import Any, Literal, Protocol
 
 import numpy as np
 
 from sgim.answers import Answers
 from sgim.environments.base import Generators, MinimalEnvironment, draw_context, execute_all
 from sgim.errors import SgimError
+from sgim.learner import Learner
 from sgim.records import Goal, Outcome
 from sgim.spaces import Box, FloatArray
 from sgim.streams import Streams
+
+
+class Measures(Protocol):
+    """What a run is measured by: `Benchmark`, or what else can say how good a learner is."""
+
+    def describe(self) -> dict[str, Any]:
+        """What it measures by, JSON-compatible: equal for those whose errors compare."""
+        ...
+
+    def evaluate(self, learner: Learner, streams: Streams, index: int) -> dict[str, float]:
+        """Errors by kind, and ``total``, of a learner after ``index`` movements."""
+        ...
 
 
 class Benchmark:

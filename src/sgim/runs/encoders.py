@@ -180,6 +180,8 @@ class Encoders:
 
 def _number(value: float | None) -> str:
     """A number as `to_json` writes it, which takes as long as the rest of a row."""
+    if value is None:
+        return "null"
     ordinary = (type(value) is float and math.isfinite(value)) or type(value) is int
     return repr(value) if ordinary else to_json(value)
 

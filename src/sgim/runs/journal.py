@@ -133,14 +133,31 @@ class Journal:
             writer = self._writable()
         writer.append(self._codec.encode(event))
 
-    def commit(self) -> None:
+    def commit(self, *, synced: bool = False) -> None:
         """Write what is waiting, all or nothing.
+
+        Args:
+            synced: Whether to wait until the disk has it, also if the journal is not durable.
 
         Raises:
             JournalError: If it cannot be written (the disk is full or broken). The events stay in
                 memory, in order, and the next commit or append tries again.
         """
-        self._writable().commit()
+        self._writable().commit(synced=synced)
+
+    def beside(self, statement: str, *values: Any) -> None:
+        """Execute a statement on a table beside the events, together with the next commit.
+
+        After a failed commit it is executed again, so it must be one that may be repeated.
+        """
+        self._writable().beside(statement, values)
+
+    def query(self, statement: str, *values: Any) -> list[tuple[Any, ...]]:
+        """What a statement on a table beside the events gives."""
+        try:
+            return self._connection().execute(statement, values).fetchall()
+        except sqlite3.Error as error:
+            raise explain(self.path, error) from error
 
     def events(self, after: int = 0, only: Iterable[str] | None = None) -> Iterator[RecordedEvent]:
         """The events in order, as appended, but a `RecordedPlan` for each `Planned`.

@@ -13,8 +13,8 @@ if TYPE_CHECKING:
     from rich.live import Live
     from rich.progress import Progress, TaskID
 
-    from sgim.runs.run import Observer, Run
-    from sgim.runs.sweep import SweptRun
+    from sgim.runs.observer import Observer
+    from sgim.runs.run import Run
 
 LATELY = 200
 """Episodes over which choices are shown."""
@@ -179,56 +179,6 @@ class _Choices:
 
 def _errors(evaluation: Evaluated) -> str:
     return "  ".join(f"{kind} {error:.3g}" for kind, error in evaluation.errors.items())
-
-
-class SweepProgress:
-    """One bar for many runs, or a line every few seconds where there is no terminal.
-
-    Args:
-        title: What runs.
-        total: How many runs there are.
-        stream: Where to write; standard error if None.
-    """
-
-    seconds = 5.0
-    """Least time between lines."""
-
-    def __init__(self, title: str, total: int, stream: TextIO | None = None) -> None:
-        self._title = title
-        self._total = total
-        self._stream = sys.stderr if stream is None else stream
-        self._done = 0
-        self._written = 0.0
-        self._bar: Progress | None = None
-        self._task: TaskID | None = None
-
-    def __enter__(self) -> SweepProgress:
-        if self._stream.isatty():
-            from rich.console import Console
-            from rich.progress import Progress
-
-            self._bar = Progress(console=Console(file=self._stream), transient=True)
-            self._task = self._bar.add_task(self._title, total=self._total)
-            self._bar.start()
-        else:
-            self._write(f"{self._title}: {self._total} runs")
-        return self
-
-    def ended(self, run: SweptRun | None = None) -> None:
-        """Count a run that has ended."""
-        self._done += 1
-        if self._bar is not None and self._task is not None:
-            self._bar.update(self._task, advance=1)
-        elif time.monotonic() - self._written > self.seconds:
-            self._write(f"{self._done} of {self._total} runs have ended")
-
-    def _write(self, text: str) -> None:
-        self._written = time.monotonic()
-        print(text, file=self._stream, flush=True)
-
-    def __exit__(self, *exception: object) -> None:
-        if self._bar is not None:
-            self._bar.stop()
 
 
 def duration(seconds: float) -> str:

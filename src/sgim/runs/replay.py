@@ -129,7 +129,7 @@ class _Fold:
     def _issue_due(self, running: Running) -> None:
         """Give out the plan that the process died before recording."""
         self._count_in_round()
-        self.learner.issue(running, self.learner.proposed(running))
+        self.learner.issue(running, *self.learner.proposed([running]))
 
     def _count_in_round(self) -> None:
         if self.after_answer:
@@ -155,7 +155,7 @@ class _Fold:
                 self.learner.learn_trial(plan, running, trial)
             case Answered():
                 plan, running = self._out(event.plan)
-                self.learner.learn_answer(plan, running, event.demonstration)
+                self.learner.learn_answers([plan], [running], [event.demonstration])
                 answered = True
             case Ended():
                 self.learner.learn_end(*self._out(event.plan), event.how)
@@ -180,7 +180,7 @@ class _Fold:
     def _open(self, event: Opened) -> None:
         live = event.episode >= self.live_from
         if live:
-            decided = self.learner.decide_opening(event.context)
+            (decided,) = self.learner.decide([event.context])
             mine, recorded = (
                 (e.mode, e.cause, e.budget, *self._goal_bytes(e.goal)) for e in (decided, event)
             )

@@ -2,27 +2,32 @@
 
 from __future__ import annotations
 
+import math
 import time
 import warnings
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any
 
 from sgim.environments.base import MinimalEnvironment
 from sgim.errors import JournalError, SgimError
 from sgim.events import Evaluated, Session
 from sgim.learner import Learner
-from sgim.records import Plan
-from sgim.runs.benchmark import Benchmark
+from sgim.records import Outcome, Plan
+from sgim.runs.asking import Asking
+from sgim.runs.benchmark import Measures
+from sgim.runs.checks import check_world, checked_teachers
 from sgim.runs.continuation import keep_journal, session_facts
 from sgim.runs.interrupt import InterruptWish
 from sgim.runs.journal import Journal
-from sgim.runs.journal_reading import first_difference
+from sgim.runs.observer import Observer
+from sgim.runs.pace import Pace
 from sgim.runs.replay import Replayed, iterate_trials
+from sgim.runs.telling import answer_together, tell_together
 from sgim.runs.world import Executed, World
 from sgim.streams import Streams
-from sgim.teachers import Teacher
+from sgim.teachers import RemoteTeacher, Teacher
 
 
 class RunError(SgimError):
@@ -31,26 +36,6 @@ class RunError(SgimError):
 
 class Interrupted(SgimError):  # noqa: N818 - not an error of the run
     """The user asked the run to stop; everything told is in the journal."""
-
-
-class Observer(Protocol):
-    """Is told how a run goes, to show it."""
-
-    def started(self, run: Run, target: int) -> None:
-        """The run goes on until ``target`` movements."""
-        ...
-
-    def moved(self, run: Run) -> None:
-        """Some movements were made."""
-        ...
-
-    def evaluated(self, run: Run, evaluation: Evaluated) -> None:
-        """The repertoire was measured."""
-        ...
-
-    def ended(self, run: Run) -> None:
-        """The run stopped, finished or not."""
-        ...
 
 
 class Run:
@@ -62,7 +47,8 @@ class Run:
     Args:
         learner: The learner.
         environment: The world.
-        teachers: Name → teacher, for every teacher that the learner's modes ask.
+        teachers: Name → teacher, for every teacher that the learner's modes ask. A
+            `RemoteTeacher` is not waited for; what they do comes through the journal.
         journal: Path of the journal; None to keep none.
         benchmark: Measures the repertoire; None to measure nothing.
         evaluate_every: Movements between evaluations.
@@ -91,23 +77,21 @@ class Run:
         self,
         learner: Learner,
         environment: MinimalEnvironment,
-        teachers: Mapping[str, Teacher] | None = None,
+        teachers: Mapping[str, Teacher | RemoteTeacher] | None = None,
         *,
         journal: str | Path | None = None,
-        benchmark: Benchmark | None = None,
+        benchmark: Measures | None = None,
         evaluate_every: int = 1000,
         batch: int = 1,
         real: bool = False,
         adopt: bool = False,
         about: Mapping[str, Any] | None = None,
     ) -> None:
-        self.teachers = _checked_teachers(teachers)
-        _check_world(environment, learner)
-        missing = [name for name in learner.teachers if name not in self.teachers]
-        if missing:
+        self.teachers, persons = checked_teachers(teachers, learner)
+        check_world(environment, learner)
+        if persons and journal is None:
             raise SgimError(
-                f"the learner asks {', '.join(missing)}, but the run has "
-                f"{', '.join(self.teachers) or 'no teachers'}; pass teachers={{name: teacher}}"
+                f"what {', '.join(persons)} will answer is kept in the journal; pass journal=PATH"
             )
         if evaluate_every < 1 or batch < 1:
             raise SgimError(f"evaluate_every={evaluate_every} and batch={batch} must be 1 or more")
@@ -132,11 +116,19 @@ class Run:
         self._unfinished_round: tuple[int, int] | None = None
         if replayed.round_size:
             self._unfinished_round = (replayed.round_start, replayed.round_size)
+        self._asking: Asking | None = None
+        if persons and self.journal is not None:
+            self._asking = Asking(self.learner, self.journal, persons)
 
     @property
     def movements(self) -> int:
         """Movements made so far."""
         return self.learner.movements
+
+    @property
+    def asks_persons(self) -> bool:
+        """Whether some of its teachers are persons who answer later."""
+        return self._asking is not None
 
     def warm_start(self, journal: str | Path) -> int:
         """Let the learner observe all trials of another run, before its own first.
@@ -157,12 +149,15 @@ class Run:
                 count += 1
         return count
 
-    def go(self, movements: int, observer: Observer | None = None) -> list[Evaluated]:
+    def go(
+        self, movements: int, observer: Observer | None = None, *, pace: float = math.inf
+    ) -> list[Evaluated]:
         """Go on until there have been so many movements in all.
 
         Args:
             movements: In all, those before a resume included.
             observer: Shows how it goes; None for silence.
+            pace: Movements a second, at most, so that a person can keep up.
 
         Returns:
             All evaluations so far.
@@ -180,7 +175,7 @@ class Run:
             with InterruptWish() as wish:
                 if self.movements % self.evaluate_every == 0:
                     self._evaluate(observer)
-                self._continue(movements, observer, wish)
+                self._continue(movements, observer, wish, Pace(pace))
                 self._evaluate(observer)
         finally:
             self.seconds += time.monotonic() - begun
@@ -190,8 +185,10 @@ class Run:
                 observer.ended(self)
         return self.evaluations
 
-    def _continue(self, target: int, observer: Observer | None, wish: InterruptWish) -> None:
-        if self.learner.pending and self.movements < target:
+    def _continue(
+        self, target: int, observer: Observer | None, wish: InterruptWish, pace: Pace
+    ) -> None:
+        if self._due() and self.movements < target:
             start, asked = self._unfinished_round or (0, 0)
             self._unfinished_round, missing = None, 0
             if asked and start == self.movements:
@@ -201,7 +198,12 @@ class Run:
         while self.movements < target:
             if wish.stop:
                 raise Interrupted(f"stopped at {self.movements} of {target} movements")
-            self._round(min(self.batch, target - self.movements), observer)
+            if self._asking is not None:
+                self._asking.hear()
+            if not pace.is_time(self.movements):
+                continue
+            due = len(self._due())
+            self._round(max(0, min(self.batch, target - self.movements) - due), observer)
             if observer is not None and time.monotonic() - shown > 0.1:
                 observer.moved(self)
                 shown = time.monotonic()
@@ -210,30 +212,56 @@ class Run:
         """Ask for n plans, and carry out all that are out."""
         learner, world = self.learner, self.world
         first = learner.ledger.next_plan
-        if n == 1 and not learner.ledger.plans:
+        if n == 1 and not self._due():
             plan = learner.ask(world.contexts(first, 1)[0])
             if plan.request is not None:
+                if self._put(plan):
+                    return
                 plan = self._answered(plan)
             self._tell(plan, world.execute(plan), observer)
             return
-        if n > 0:
+        if self._asking is not None:  # one by one: who is asked is not asked again
+            for context in world.contexts(first, max(n, 0)):
+                self._put(learner.ask(context))
+        elif n > 0:
             learner.ask_batch(n, world.contexts(first, n))
-        for plan in learner.pending:
-            if plan.request is not None:
+        requests = [plan for plan in self._due() if plan.request is not None]
+        if len(requests) > 1 and answer_together(learner, requests, world):
+            for plan in requests:
+                self._failures[_teacher_of(plan)] = 0
+        else:
+            for plan in requests:
                 self._answered(plan)
-        plans = learner.pending
+        plans = self._due()
+        executed = list(zip(plans, world.execute_all(plans), strict=True))
         given_up: RunError | None = None
-        for plan, outcome in zip(plans, world.execute_all(plans), strict=True):
-            try:
-                self._tell(plan, outcome, observer)
-            except RunError as error:  # the movements behind it have been made, too
-                given_up = given_up or error
+        while executed:
+            due = self.evaluate_every - self.movements % self.evaluate_every
+            if outcomes := tell_together(learner, executed[:due]):
+                self._told(outcomes, observer)
+            else:
+                try:
+                    self._tell(*executed[0], observer)
+                except RunError as error:  # the movements behind it have been made, too
+                    given_up = given_up or error
+            del executed[: len(outcomes) or 1]
         if given_up is not None:
             raise given_up
 
+    def _due(self) -> list[Plan]:
+        """The plans that are out, but for those that wait for a person."""
+        pending, asking = self.learner.pending, self._asking
+        return pending if asking is None else [p for p in pending if not asking.waits(p)]
+
+    def _put(self, plan: Plan) -> bool:
+        """Put a request to a person, if it is one, to be heard of later."""
+        if self._asking is None or not self._asking.waits(plan):
+            return False
+        self._asking.put(plan)
+        return True
+
     def _answered(self, plan: Plan) -> Plan:
-        assert plan.request is not None
-        teacher = f"teacher {plan.request.teacher!r}"
+        teacher = _teacher_of(plan)
         try:
             following = self.learner.answer(plan, self.world.demonstration(plan))
             self._failures[teacher] = 0
@@ -250,13 +278,22 @@ class Run:
         else:
             try:
                 self.learner.tell(plan, outcome)
-                self._failures["the world"] = 0
             except JournalError:
                 raise
             except SgimError as error:
                 self._failed("the world", error, plan)
             else:
-                self.world.observed(outcome)
+                self._told([outcome], observer)
+                return
+        self._evaluate_if_due(observer)
+
+    def _told(self, outcomes: Sequence[Outcome], observer: Observer | None) -> None:
+        self._failures["the world"] = 0
+        for outcome in outcomes:
+            self.world.observed(outcome)
+        self._evaluate_if_due(observer)
+
+    def _evaluate_if_due(self, observer: Observer | None) -> None:
         if self.learner.movements % self.evaluate_every == 0:
             self._evaluate(observer)
 
@@ -302,31 +339,6 @@ class Run:
         self.close()
 
 
-def _checked_teachers(teachers: Mapping[str, Teacher] | None) -> dict[str, Teacher]:
-    if not isinstance(teachers or {}, Mapping):
-        raise SgimError(
-            f"teachers are a {type(teachers).__name__}, expected teachers={{name: teacher}}"
-        )
-    for name, teacher in (teachers or {}).items():
-        if isinstance(teacher, type) or not callable(getattr(teacher, "demonstrate", None)):
-            raise SgimError(
-                f"teacher {name!r} is {teacher!r:.80}, expected an object with "
-                "demonstrate(goal, rng); wrap a function of the goal in ScriptedTeacher"
-            )
-    return dict(teachers or {})
-
-
-def _check_world(environment: MinimalEnvironment, learner: Learner) -> None:
-    missing = [n for n in ("task", "deterministic", "execute") if not hasattr(environment, n)]
-    if missing or isinstance(environment, type):
-        raise SgimError(
-            f"the world is {environment!r:.80}, expected an object with task, deterministic and "
-            "execute(policy, context, rng)"
-            + (f"; it lacks {', '.join(missing)}" if missing else "")
-        )
-    mine, its = learner.task.describe(), environment.task.describe()
-    if difference := first_difference(its, mine):
-        raise SgimError(
-            f"the learner's task is not the world's, taken as recorded: {difference}; make the "
-            "learner with the world's task"
-        )
+def _teacher_of(plan: Plan) -> str:
+    assert plan.request is not None
+    return f"teacher {plan.request.teacher!r}"

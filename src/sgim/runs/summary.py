@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from bisect import bisect_left
 from collections import Counter
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -12,9 +13,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sgim.errors import JournalError
+from sgim.runs.content import goals_of, outcomes_of, shown_in
 from sgim.runs.journal import Journal
 from sgim.runs.measured import MeasuredRun, measures
 from sgim.runs.rows import DECLINED
+from sgim.spaces import Choices, FloatArray
 from sgim.task import Task
 
 QUARTERS = 4
@@ -28,11 +31,14 @@ class Openings:
         movements: Movements made before each was opened, shape ``(n,)``.
         modes: The mode decided for each.
         kinds: The kind of the goal chosen for each; None for modes without a goal.
+        labels: The label chosen for each, None where the goal is none; empty in tasks without
+            labels as goals.
     """
 
     movements: NDArray[np.int64]
     modes: list[str]
     kinds: list[str | None]
+    labels: list[str | None] = field(default_factory=list)
 
     @classmethod
     def pooled(cls, several: Iterable[Openings]) -> Openings:
@@ -42,12 +48,14 @@ class Openings:
             np.concatenate([part.movements for part in parts]),
             [mode for part in parts for mode in part.modes],
             [kind for part in parts for kind in part.kinds],
+            [label for part in parts for label in part.labels],
         )
 
     def of_kind(self, kind: str) -> Openings:
         """Those whose goal is of one kind."""
         rows = [i for i, its in enumerate(self.kinds) if its == kind]
-        return Openings(self.movements[rows], [self.modes[i] for i in rows], [kind] * len(rows))
+        modes, labels = [self.modes[i] for i in rows], [self.labels[i] for i in rows if self.labels]
+        return Openings(self.movements[rows], modes, [kind] * len(rows), labels)
 
     def shares(self, edges: NDArray[np.float64]) -> list[dict[str, dict[str, float]]]:
         """Shares of modes and of goal kinds among the episodes opened in each window.
@@ -111,6 +119,24 @@ class RecordedRun(MeasuredRun):
         end = self.movements if self.target is None else self.target
         return self.openings.shares(np.linspace(0.0, max(end, 1), QUARTERS + 1))
 
+    def produced(self, kind: str, movements: int | None = None) -> FloatArray:
+        """The outcomes of a kind that is a box, in order: of so many first trials, or of all.
+
+        Returns:
+            Shape ``(n, d)``.
+        """
+        when, points = outcomes_of(self.path, self.task)[kind]
+        kept = points if movements is None else points[: bisect_left(when, movements)]
+        return np.array(kept, dtype=np.float64).reshape(len(kept), -1 if kept else 0)
+
+    def aimed_at(self, kind: str) -> tuple[NDArray[np.int64], FloatArray]:
+        """Its goals of a kind that is a box; see `sgim.runs.content.goals_of`."""
+        return goals_of(self.path, self.task, kind)
+
+    def shown(self) -> FloatArray:
+        """What was demonstrated, as policies that are vectors; see `sgim.runs.content.shown_in`."""
+        return shown_in(self.path, self.task)
+
     def summary(self) -> dict[str, Any]:
         """As JSON: what was run, how far it is, its errors and its choices.
 
@@ -152,7 +178,10 @@ def read_run(path: str | Path, task: Task | None = None) -> RecordedRun:
         moved = _movements(journal)
         seqs = np.array([row[0] for row in opened], dtype=np.int64)
         openings = Openings(
-            np.searchsorted(moved, seqs), [row[1] for row in opened], [row[2] for row in opened]
+            np.searchsorted(moved, seqs),
+            [row[1] for row in opened],
+            [row[2] for row in opened],
+            _labels(journal),
         )
         return RecordedRun(
             Path(path),
@@ -163,6 +192,16 @@ def read_run(path: str | Path, task: Task | None = None) -> RecordedRun:
             troubles=_troubles(journal),
             **measured,
         )
+
+
+def _labels(journal: Journal) -> list[str | None]:
+    """The labels that were chosen as goals; empty where goals are none."""
+    spaces = journal.task.goal_spaces
+    labels = {kind for kind, space in spaces.items() if isinstance(space, Choices)}
+    if not labels:
+        return []
+    rows = journal.columns("opened", "kind", "point")
+    return [spaces[kind].unpack(point) if kind in labels else None for kind, point in rows]
 
 
 def summarise(path: str | Path, task: Task | None = None) -> dict[str, Any]:

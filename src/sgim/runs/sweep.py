@@ -2,51 +2,19 @@
 
 from __future__ import annotations
 
-import itertools
-import traceback
-from collections.abc import Callable, Iterable, Iterator
+import shutil
+import threading
+import uuid
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Literal, Protocol
+from types import TracebackType
 
 from sgim.errors import SgimError
-from sgim.learner import Learner
-from sgim.runs.run import Interrupted, Run
-from sgim.runs.summary import read_run
-
-
-class Sweepable(Protocol):
-    """What a sweep asks of an experiment; `sgim.experiments.Experiment` has it."""
-
-    @property
-    def movements(self) -> int:
-        """How many movements a run has by default."""
-        ...
-
-    def learner(self, name: str, *, configuration: str = ..., seed: int = ...) -> Learner:
-        """Make a learner by its name."""
-        ...
-
-    def journal_path(self, learner: str, seed: int, configuration: str, folder: str | Path) -> Path:
-        """Where the journal of one run is."""
-        ...
-
-    def require_same(self, journal: str | Path, learner: Learner, batch: int) -> None:
-        """Raise `JournalError` if a journal has the run of another learner."""
-        ...
-
-    def start(
-        self,
-        name: str,
-        journal: str | Path,
-        *,
-        configuration: str = ...,
-        seed: int = ...,
-        batch: int = ...,
-        evaluate_every: int = ...,
-    ) -> Run:
-        """Begin a run, or go on with it."""
-        ...
+from sgim.runs.backends import BackendName, Execute, workers
+from sgim.runs.run import Interrupted
+from sgim.runs.sweep_notes import Ending, Notes, Status
+from sgim.runs.sweep_run import Job, PlannedRun, lost, run_job
 
 
 @dataclass(frozen=True)
@@ -58,139 +26,181 @@ class SweptRun:
         learner: The learner's name.
         seed: The seed.
         status: ``finished``; ``known`` if it was finished before; ``interrupted``; ``failed``.
+        attempts: How often it was tried.
         error: The traceback of what failed; empty otherwise.
     """
 
     path: Path
     learner: str
     seed: int
-    status: Literal["finished", "known", "interrupted", "failed"]
+    status: Status
+    attempts: int = 1
     error: str = ""
 
 
 def sweep(
-    experiment: Sweepable,
-    learners: Iterable[str],
-    seeds: Iterable[int],
+    planned: Sequence[PlannedRun],
     *,
-    configuration: str = "modern",
-    movements: int | None = None,
-    batch: int = 1,
-    evaluate_every: int = 1000,
-    jobs: int = 1,
     out: str | Path = "runs",
+    backend: BackendName = "loky",
+    address: str | None = None,
+    jobs: int | None = 1,
+    retries: int = 2,
+    scratch: str | Path | None = None,
     on_end: Callable[[SweptRun], None] | None = None,
 ) -> list[SweptRun]:
-    """Run every learner with every seed, side by side, one BLAS thread each.
+    """Make runs side by side, one BLAS thread each.
 
     A run whose journal is in ``out`` already is taken as it is if it is finished, and resumed
-    if it is not. A run that fails does not stop the others.
+    if it is not. A run that raises an error, or whose worker dies, is tried again, from where its
+    journal is, and does not stop the others.
 
     Args:
-        experiment: The experiment.
-        learners: Names of learners, such as ``sgim-acts`` and ``mimicry:T1``.
-        seeds: The seeds.
-        configuration: Name of the configuration of all of them.
-        movements: Movements of each run; the experiment's if None.
-        batch: Plans to carry out side by side within a run.
-        evaluate_every: Movements between evaluations.
-        jobs: Processes; with 1, all runs are made in this one.
-        out: Directory of the journals.
-        on_end: Called with each run as it ends, in the order of ending.
+        planned: The runs, no two with the same journal.
+        out: Directory of the journals; on a cluster, on storage that all workers share.
+        backend: Where the runs execute, as `sgim.runs.backends.workers` says.
+        address: Of the cluster.
+        jobs: How many at once; with ``loky`` and 1, all runs are made in this process.
+        retries: How often a run is tried again.
+        scratch: Directory, on the machine that makes a run, where its journal is written before
+            it is brought to ``out``. If None, that is ``out`` itself, or where it is on a network
+            file system, the machine's directory for temporary files.
+        on_end: Called with each run as it ends, in the order of ending, from another thread.
 
     Returns:
-        How each run ended, learner by learner and in the order of the seeds.
+        How each run ended, in the order planned.
 
     Raises:
-        SgimError: If a learner cannot be made; nothing has been run then.
+        SgimError: If there is nothing to run, or the back end cannot be used.
         Interrupted: If the user stopped it; all journals are kept, and the same call goes on.
     """
-    target = experiment.movements if movements is None else movements
-    names = list(dict.fromkeys(learners))
-    pairs = list(itertools.product(names, dict.fromkeys(seeds)))
-    if not pairs or target < 1 or jobs < 1:
-        raise SgimError("a sweep needs one or more learners, seeds, movements and jobs")
-    for name in names:
-        experiment.learner(name, configuration=configuration, seed=0)
-    tasks = [
-        _Task(
-            experiment,
-            learner,
-            seed,
-            # Workers may have been started in another directory.
-            experiment.journal_path(learner, seed, configuration, Path(out).absolute()),
-            configuration,
-            target,
-            batch,
-            evaluate_every,
+    if not planned or retries < 0 or (jobs is not None and jobs < 1):
+        raise SgimError("a sweep needs one or more runs and jobs, and 0 or more retries")
+    # Workers may have been started in another directory.
+    folder = Path(out).absolute()
+    notes = Notes(folder / f".sweep-{uuid.uuid4().hex[:12]}")
+    paths = [run.path(folder) for run in planned]
+    jobs_of = {
+        path.name: Job(
+            run, path, notes.folder, retries + 1, None if scratch is None else Path(scratch)
         )
-        for learner, seed in pairs
-    ]
-    ended: dict[Path, SweptRun] = {}
+        for run, path in zip(planned, paths, strict=True)
+    }
+    if len(jobs_of) < len(planned):
+        raise SgimError("two planned runs have the same journal; plan each once")
+    swept = _Sweep(jobs_of, notes, retries + 1)
     try:
-        for result in _results(tasks, jobs):
-            ended[result.path] = result
-            if on_end is not None:
-                on_end(result)
-            if result.status == "interrupted":
-                raise KeyboardInterrupt
+        with _Watch(swept, on_end), workers(backend, address, jobs) as execute:
+            swept.go(execute)
     except KeyboardInterrupt:
-        done = sum(r.status in ("finished", "known") for r in ended.values())
-        raise Interrupted(f"stopped; {done} of {len(tasks)} runs are finished") from None
-    return [ended[task.path] for task in tasks]
+        swept.interrupted = True
+    finally:
+        shutil.rmtree(notes.folder, ignore_errors=True)
+    if swept.interrupted:
+        done = sum(e.status in ("finished", "known") for e in swept.endings.values())
+        raise Interrupted(f"stopped; {done} of {len(planned)} runs are finished")
+    return [swept.result(path.name) for path in paths]
 
 
-@dataclass(frozen=True)
-class _Task:
-    experiment: Sweepable
-    learner: str
-    seed: int
-    path: Path
-    configuration: str
-    target: int
-    batch: int
-    evaluate_every: int
+class _Sweep:
+    """A sweep that goes on: which runs are still to be made, and how the others ended."""
+
+    def __init__(self, jobs: Mapping[str, Job], notes: Notes, limit: int) -> None:
+        self.jobs = jobs
+        self.notes = notes
+        self.limit = limit
+        self.endings: dict[str, Ending] = {}
+        self.interrupted = False
+
+    def go(self, execute: Execute) -> None:
+        """Make all runs; again those that failed, and alone those that died together.
+
+        Where a worker's death takes others along, the runs that were under way are made one at a
+        time afterwards, so that only the one which brings it about is found guilty of it.
+        """
+        waiting, suspects = [*self.jobs], list[str]()
+        while (waiting or suspects) and not self.interrupted:
+            group = [suspects.pop()] if suspects else waiting
+            begun = {name: self.notes.attempts(name) for name in group}
+            self.notes.forget(group)
+            cause: Exception | None = None
+            try:
+                execute(run_job, [self.jobs[name] for name in group])
+            except Exception as error:
+                cause = error
+            finally:
+                self.collect()
+            left = [name for name in group if name not in self.endings]
+            died = [name for name in left if self.notes.ending(name) is None]
+            guilty = [name for name in died if self.notes.attempts(name) > begun[name]]
+            if cause is not None and left and not guilty and len(left) == len(group):
+                raise SgimError(
+                    f"no worker could begin a run: {type(cause).__name__}: {cause}"
+                ) from cause
+            for name in guilty:
+                if self.notes.attempts(name) >= self.limit:
+                    self.notes.end(name, lost(self.limit, cause))
+                else:
+                    suspects.append(name)
+            self.collect()
+            known = {*self.endings, *suspects}
+            waiting = [name for name in self.jobs if name not in known]
+
+    def collect(self) -> list[str]:
+        """Take in what has ended for good; the names of those that were not known to have."""
+        new = []
+        for name in self.notes.ended():
+            ending = None if name in self.endings else self.notes.ending(name)
+            if ending is None or (ending.status == "failed" and ending.attempt < self.limit):
+                continue
+            if ending.status == "interrupted":
+                self.interrupted = True
+            self.endings[name] = ending
+            new.append(name)
+        return new
+
+    def result(self, name: str) -> SweptRun:
+        """How a run ended."""
+        job, ending = self.jobs[name], self.endings[name]
+        return SweptRun(
+            job.path, job.run.learner, job.run.seed, ending.status, ending.attempt, ending.error
+        )
 
 
-def _results(tasks: list[_Task], jobs: int) -> Iterator[SweptRun]:
-    """The results, in the order in which they come."""
-    from joblib import Parallel, delayed, parallel_config
+class _Watch:
+    """A thread that tells of runs as they end, wherever they are made."""
 
-    if jobs == 1:
-        yield from map(_run_one, tasks)
-        return
-    with parallel_config(backend="loky", inner_max_num_threads=1):
-        parallel = Parallel(n_jobs=jobs, return_as="generator_unordered", batch_size=1)
-        results = parallel(delayed(_run_one)(task) for task in tasks)
-    yield from results
+    seconds = 0.2
 
+    def __init__(self, swept: _Sweep, on_end: Callable[[SweptRun], None] | None) -> None:
+        self._swept = swept
+        self._on_end = on_end
+        self._told: set[str] = set()
+        self._stop = threading.Event()
+        self._thread = threading.Thread(target=self._watch, daemon=True)
 
-def _run_one(task: _Task) -> SweptRun:
-    """Make one run, in whatever process."""
+    def __enter__(self) -> None:
+        if self._on_end is not None:
+            self._thread.start()
 
-    def ended(status: Any, error: str = "") -> SweptRun:
-        return SweptRun(task.path, task.learner, task.seed, status, error)
+    def _watch(self) -> None:
+        while not self._stop.wait(self.seconds):
+            self._swept.collect()
+            self._tell()
 
-    experiment, path = task.experiment, task.path
-    try:
-        if path.exists():
-            learner = experiment.learner(
-                task.learner, configuration=task.configuration, seed=task.seed
-            )
-            experiment.require_same(path, learner, task.batch)
-            if read_run(path).reached(task.target):
-                return ended("known")
-        with experiment.start(
-            task.learner,
-            path,
-            configuration=task.configuration,
-            seed=task.seed,
-            batch=task.batch,
-            evaluate_every=task.evaluate_every,
-        ) as run:
-            run.go(task.target)
-    except Interrupted:
-        return ended("interrupted")
-    except Exception:
-        return ended("failed", traceback.format_exc())
-    return ended("finished")
+    def _tell(self) -> None:
+        for name in [*self._swept.endings]:  # copied at once: the sweep goes on adding to it
+            if name not in self._told and self._on_end is not None:
+                self._told.add(name)
+                self._on_end(self._swept.result(name))
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        traceback: TracebackType | None,
+    ) -> None:
+        if self._on_end is not None:
+            self._stop.set()
+            self._thread.join()
+            self._tell()

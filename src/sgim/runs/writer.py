@@ -65,11 +65,12 @@ class _Waiting:
     leaves rows and number in agreement.
     """
 
-    __slots__ = ("after", "rows", "since")
+    __slots__ = ("after", "beside", "rows", "since")
 
     def __init__(self, after: int) -> None:
         self.after = after
         self.rows: list[Row] = []
+        self.beside: list[tuple[str, tuple[Any, ...]]] = []
         self.since = 0.0
 
 
@@ -111,15 +112,29 @@ class Writer:
         if full or self._durable:
             self.commit()
 
-    def commit(self) -> None:
+    def beside(self, statement: str, values: tuple[Any, ...]) -> None:
+        """Add a statement on another table to the next commit; repeated, it must do no harm."""
+        self._waiting.beside.append((statement, values))
+
+    def commit(self, *, synced: bool = False) -> None:
         """Write what is waiting, all or nothing.
+
+        Args:
+            synced: Whether to wait until the disk has it, also where appending does not.
 
         Raises:
             JournalError: If it cannot be written, or another program has written to the file.
                 What was waiting stays, and the next commit tries again.
         """
         db, waiting = self._db, self._waiting
-        if not waiting.rows:
+        if not waiting.rows and not waiting.beside:
+            return
+        if synced and not self._durable:
+            db.execute("PRAGMA synchronous = FULL")
+            try:
+                self.commit()
+            finally:
+                db.execute("PRAGMA synchronous = NORMAL")
             return
         try:
             if db.in_transaction:  # of an attempt that could not even be rolled back
@@ -128,6 +143,8 @@ class Writer:
             done = self._already_written()
             for statement, values in _by_shape(waiting.rows, waiting.after, done).items():
                 db.executemany(statement, values)
+            for statement, parameters in waiting.beside:
+                db.execute(statement, parameters)
             db.execute("COMMIT")
         except BaseException as error:
             with suppress(sqlite3.Error):

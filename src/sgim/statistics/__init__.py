@@ -7,7 +7,9 @@ from sgim.statistics.bootstrap import (
     bootstrap_interval,
     contrast_estimates,
     interquartile_estimate,
+    profile_estimate,
 )
+from sgim.statistics.change_points import stages
 from sgim.statistics.effects import probability_lower, rank_biserial
 from sgim.statistics.significance import (
     equivalence_p,
@@ -15,6 +17,7 @@ from sgim.statistics.significance import (
     least_pairs,
     less_margin,
     mann_whitney_p,
+    mean_vector_p,
     not_higher_p,
     signed_rank_p,
 )
@@ -32,9 +35,12 @@ __all__ = [
     "least_pairs",
     "less_margin",
     "mann_whitney_p",
+    "mean_vector_p",
     "not_higher_p",
     "performance_profile",
     "probability_lower",
+    "profile_estimate",
     "rank_biserial",
     "signed_rank_p",
+    "stages",
 ]

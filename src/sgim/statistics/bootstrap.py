@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from sgim.spaces import FloatArray
-from sgim.statistics.summaries import interquartile_mean
+from sgim.statistics.summaries import interquartile_mean, performance_profile
 
 RESAMPLES = 2000
 LEVEL = 0.95
@@ -99,6 +99,36 @@ def interquartile_estimate(
         level=level,
     )
     return Estimate(interquartile_mean(runs), np.asarray(low), np.asarray(high))
+
+
+def profile_estimate(
+    runs: FloatArray,
+    thresholds: FloatArray,
+    rng: np.random.Generator,
+    *,
+    resamples: int = RESAMPLES,
+    level: float = LEVEL,
+) -> Estimate:
+    """The performance profile of a learner's errors, with its pointwise bootstrap interval.
+
+    Args:
+        runs: One error a run, shape ``(n,)``.
+        thresholds: Shape ``(m,)``.
+        rng: Draws the resamples.
+        resamples: How many.
+        level: Of the interval, at each threshold by itself.
+
+    Returns:
+        The share of runs at or under each threshold, shape ``(m,)``; as in Agarwal et al. 2021.
+    """
+    low, high = bootstrap_interval(
+        [runs],
+        lambda strata: performance_profile(strata[0], thresholds, axis=1),
+        rng,
+        resamples=resamples,
+        level=level,
+    )
+    return Estimate(performance_profile(runs, thresholds), np.asarray(low), np.asarray(high))
 
 
 def contrast_estimates(

@@ -198,3 +198,28 @@ def _tail(chances: FloatArray, found: int, alternative: Alternative) -> float:
         return min(1.0, greater)
     lower = float(chances[: found + 1].sum())
     return min(1.0, 2 * min(greater, lower))
+
+
+def mean_vector_p(one: FloatArray, other: FloatArray) -> float:
+    """P-value of Hotelling's T² test (1931): two samples of vectors have one mean.
+
+    For two groups it is the multivariate analysis of variance (Krzanowski 1988).
+
+    Args:
+        one: Shape ``(n, d)``.
+        other: Shape ``(m, d)``, with n + m ≥ d + 2.
+
+    Raises:
+        SgimError: If there are too few vectors for so many coordinates.
+    """
+    from scipy.stats import f
+
+    (n, d), m = one.shape, len(other)
+    freedom = n + m - d - 1
+    if freedom < 1 or not m:
+        raise SgimError(f"{n} and {m} vectors of {d} numbers are too few for Hotelling's test")
+    gap = one.mean(axis=0) - other.mean(axis=0)
+    scatter = [(x - x.mean(axis=0)).T @ (x - x.mean(axis=0)) for x in (one, other)]
+    pooled = (scatter[0] + scatter[1]) / (n + m - 2)
+    statistic = n * m / (n + m) * float(gap @ np.linalg.pinv(pooled) @ gap)
+    return float(f.sf(statistic * freedom / (d * (n + m - 2)), d, freedom))

@@ -3,7 +3,8 @@
 from sgim.strategy.imitation import FixedFrequency, ProgressRatio
 from sgim.strategy.modes import Mode
 from sgim.strategy.news import News
-from sgim.strategy.schedules import DemonstrationsFirst, RoundRobin
+from sgim.strategy.presentation import Presentation
+from sgim.strategy.schedules import DemonstrationsFirst, RestFirst, RoundRobin
 from sgim.strategy.situation import Choice, Situation
 from sgim.strategy.strategy import Aimless, JointChoice, Strategy
 
@@ -15,7 +16,9 @@ __all__ = [
     "JointChoice",
     "Mode",
     "News",
+    "Presentation",
     "ProgressRatio",
+    "RestFirst",
     "RoundRobin",
     "Situation",
     "Strategy",

@@ -1,4 +1,4 @@
-"""Fixed schedules of modes: the controls that choosing must beat."""
+"""Fixed schedules of modes: beginning at rest, and the controls that choosing must beat."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import numpy as np
 from sgim.outcome.interest import EpisodeReport, InterestMap
 from sgim.strategy.modes import Mode
 from sgim.strategy.situation import Choice, Situation
-from sgim.strategy.strategy import by_name
+from sgim.strategy.strategy import JointChoice, by_name, choose_all
 
 
 class RoundRobin:
@@ -79,3 +79,39 @@ class DemonstrationsFirst:
         """Pass what was explored alone to the interest map."""
         if report.mode == self.alone.name:
             self.interest.update(report)
+
+
+class RestFirst:
+    """A number of policies around the one at rest, then what another strategy chooses.
+
+    Args:
+        resting: The mode that tries them, which needs no goal.
+        episodes: How many of the first episodes are in it.
+        then: What chooses afterwards.
+    """
+
+    def __init__(self, resting: Mode, episodes: int, then: JointChoice) -> None:
+        self.modes = by_name([*then.modes.values(), resting])
+        self.alone = then.alone
+        self.interest = then.interest
+        self.resting = resting
+        self.episodes = episodes
+        self.then = then
+
+    def choose(self, now: Situation, rng: np.random.Generator) -> Choice:
+        """The mode at rest at first, then the other strategy's choice."""
+        return self.choose_all([now], [rng])[0]
+
+    def choose_all(
+        self, now: Sequence[Situation], rngs: Sequence[np.random.Generator]
+    ) -> list[Choice]:
+        """As `choose` for several episodes, oldest first."""
+        resting = sum(one.episode < self.episodes for one in now)
+        choices = [Choice(self.resting, None)] * resting
+        if resting < len(now):
+            choices += choose_all(self.then, now[resting:], rngs[resting:])
+        return choices
+
+    def update(self, report: EpisodeReport) -> None:
+        """Pass the report to the other strategy."""
+        self.then.update(report)

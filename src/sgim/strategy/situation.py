@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Collection
-from dataclasses import dataclass
 from typing import Any, NamedTuple, Protocol
 
+from sgim.frozen import frozen
 from sgim.records import Goal
 from sgim.strategy.modes import Mode
 
@@ -24,7 +24,7 @@ class UnderWay(Protocol):
         ...
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@frozen
 class Situation:
     """What is known when an episode is opened, beside what episodes have reported.
 

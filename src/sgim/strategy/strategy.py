@@ -13,7 +13,7 @@ from typing import Protocol
 import numpy as np
 
 from sgim.errors import unknown
-from sgim.outcome.interest import EpisodeReport, InterestMap
+from sgim.outcome.interest import EpisodeReport, InterestMap, choose_goals
 from sgim.records import Demonstration
 from sgim.strategy.modes import Mode
 from sgim.strategy.news import News
@@ -50,6 +50,31 @@ class Strategy(Protocol):
         What a strategy keeps may change here only, so that it is a fold over the record.
         """
         ...
+
+
+def chooses_together(strategy: Strategy) -> bool:
+    """Whether it has ``choose_all(situations, rngs)``, to choose for a whole batch at once.
+
+    Such a strategy must not look at what is under way, which it would choose itself.
+    """
+    return hasattr(strategy, "choose_all")
+
+
+def choose_all(
+    strategy: Strategy, now: Sequence[Situation], rngs: Sequence[np.random.Generator]
+) -> list[Choice]:
+    """`Strategy.choose` for several episodes of one moment, at once if the strategy can.
+
+    Args:
+        strategy: The strategy.
+        now: Their situations; the same teachers are absent in all of them.
+        rngs: Each one's own generator.
+    """
+    together = getattr(strategy, "choose_all", None)
+    if together is None:
+        return [strategy.choose(*pair) for pair in zip(now, rngs, strict=True)]
+    choices: list[Choice] = together(now, rngs)
+    return choices
 
 
 def by_name(modes: Sequence[Mode]) -> dict[str, Mode]:
@@ -107,12 +132,22 @@ class JointChoice:
 
     def choose(self, now: Situation, rng: np.random.Generator) -> Choice:
         """Let the interest map choose among the modes that are possible now."""
-        present = [m.name for m in self.modes.values() if m.teacher not in now.absent]
-        goal, name = self.interest.choose(rng, present or list(self.modes), now.context)
-        mode = self.modes[name] if present else self.alone
-        if self.news is not None and mode.teacher is not None:
-            mode = mode if rng.random() < self.news.expected(name) else self.alone
-        return Choice(mode, goal)
+        return self.choose_all([now], [rng])[0]
+
+    def choose_all(
+        self, now: Sequence[Situation], rngs: Sequence[np.random.Generator]
+    ) -> list[Choice]:
+        """As `choose` for several episodes."""
+        present = [m.name for m in self.modes.values() if m.teacher not in now[0].absent]
+        modes = present or list(self.modes)
+        chosen = choose_goals(self.interest, rngs, modes, [one.context for one in now])
+        choices = []
+        for rng, (goal, name) in zip(rngs, chosen, strict=True):
+            mode = self.modes[name] if present else self.alone
+            if self.news is not None and mode.teacher is not None:
+                mode = mode if rng.random() < self.news.expected(name) else self.alone
+            choices.append(Choice(mode, goal))
+        return choices
 
     def update(self, report: EpisodeReport) -> None:
         """Pass the report to the interest map; take in what was demonstrated."""
@@ -135,6 +170,12 @@ class Aimless:
     def choose(self, now: Situation, rng: np.random.Generator) -> Choice:
         """The mode, and no goal."""
         return Choice(self.alone, None)
+
+    def choose_all(
+        self, now: Sequence[Situation], rngs: Sequence[np.random.Generator]
+    ) -> list[Choice]:
+        """As `choose` for several episodes."""
+        return [Choice(self.alone, None)] * len(now)
 
     def update(self, report: EpisodeReport) -> None:
         """Nothing is learned."""

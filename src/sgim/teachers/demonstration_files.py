@@ -47,6 +47,18 @@ def save_demonstrations(
         comment: How they were recorded.
 
     Raises:
+        TeacherError: As `write_demonstrations`.
+    """
+    text = write_demonstrations(demonstrations, task, teacher=teacher, comment=comment)
+    Path(path).write_text(text, encoding="utf-8")
+
+
+def write_demonstrations(
+    demonstrations: Sequence[Demonstration], task: Task, *, teacher: str, comment: str = ""
+) -> str:
+    """The text that `save_demonstrations` writes.
+
+    Raises:
         TeacherError: If there is none, one has no trajectory or outcome, their joints or units
             differ, or an outcome is neither numbers nor a label.
     """
@@ -78,7 +90,7 @@ def save_demonstrations(
     head = {"format": FORMAT, "version": VERSION, "teacher": teacher, "comment": comment}
     joints = {"joints": list(recorded[0].joints), "unit": recorded[0].unit}
     text = json.dumps({**head, **joints, "demonstrations": rows}, ensure_ascii=False)
-    Path(path).write_text(text.replace('{"times"', '\n{"times"') + "\n", encoding="utf-8")
+    return text.replace('{"times"', '\n{"times"') + "\n"
 
 
 def load_demonstrations(path: str | Path, task: Task) -> list[Demonstration]:
@@ -113,7 +125,19 @@ def _content(path: Path) -> Any:
                 "fewer samples a second"
             )
         file.seek(0)
-        data = file.read(LARGEST_FILE)
+        return _parsed(file.read(LARGEST_FILE))
+
+
+def read_demonstrations(data: bytes, task: Task) -> list[Demonstration]:
+    """As `load_demonstrations`, of what such a file holds; the caller limits its size.
+
+    Raises:
+        TeacherError: If it is malformed, or does not belong to the task.
+    """
+    return _demonstrations(_parsed(data), task)
+
+
+def _parsed(data: bytes) -> Any:
     try:
         return json.loads(data.decode("utf-8"))
     except (ValueError, RecursionError) as error:

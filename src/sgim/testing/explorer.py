@@ -43,13 +43,14 @@ def check_explorer(
     """
     for trials in (0, _TRIALS):
         runs = []
-        for together in (True, True, False):
+        for together, model_first in ((True, False), (True, False), (False, False), (True, True)):
             model = NearestModel(Memory(task)) if make_model is None else make_model()
             with succeeds("make_explorer makes an explorer", "Pass a function of one model"):
                 explorer = make_explorer(model)
             run = _Run(explorer, model, MadeUpWorld(task, Streams(seed)))
-            runs.append(run.proposals(trials, together=together))
-        first, again, alone = runs
+            proposals = run.proposals(trials, together=together, model_first=model_first)
+            runs.append(proposals)
+        first, again, alone, ahead = runs
         require(
             first == again,
             "the same episodes get the same proposals, to the last bit",
@@ -64,6 +65,13 @@ def check_explorer(
             "Keep what belongs to an episode in episode.state, and use operations whose rounding "
             "does not depend on the number of episodes",
         )
+        require(
+            first == ahead,
+            "it makes no difference, to the last bit, whether the model already knows the other "
+            "trials of a batch when learn is called",
+            _difference(task, first, ahead),
+            "Ask the model in begin, moved and propose only",
+        )
 
 
 _Proposals = list[tuple[int, int, bytes]]
@@ -76,7 +84,7 @@ class _Run:
         self.world = world
         self.task = world.task
 
-    def proposals(self, trials: int, *, together: bool) -> _Proposals:
+    def proposals(self, trials: int, *, together: bool, model_first: bool) -> _Proposals:
         """Everything proposed, as (round, episode, packed policy), in order."""
         for number in range(trials):
             self.model.update(self.world.trial(number))
@@ -84,10 +92,20 @@ class _Run:
         proposed: _Proposals = []
         for number in range(_ROUNDS):
             policies = self._propose(episodes, together=together)
+            told: list[tuple[Episode, Trial | None]] = []
             for episode, policy in zip(episodes, policies, strict=True):
                 packed = self._check(episode, policy)
                 proposed.append((number, episode.id, packed))
-                self._resolve(number, episode, self.task.policy_space.unpack(packed))
+                trial = self._tried(number, episode, self.task.policy_space.unpack(packed))
+                told.append((episode, trial))
+            if model_first:
+                for _, trial in told:
+                    if trial is not None:
+                        self.model.update(trial)
+            for episode, trial in told:
+                self._resolve(number, episode, trial, update=not model_first)
+            for episode in episodes:
+                self._move(number, episode)
             episodes = [e for e in episodes if not self._is_finished(e)]
         return proposed
 
@@ -129,16 +147,25 @@ class _Run:
         ):
             return self.task.policy_space.pack(self.task.check_policy(policy))
 
-    def _resolve(self, number: int, episode: Episode, policy: Any) -> None:
+    def _tried(self, number: int, episode: Episode, policy: Any) -> Trial | None:
         """What becomes of a plan: mostly a trial; sometimes it is refused, or fails."""
+        turn = (number + episode.id) % 6
+        if turn in (4, 5):
+            return None
+        outcome = {} if turn == 3 else self.world.execute(policy, episode.context)
+        return Trial(policy, outcome, episode.context)
+
+    def _resolve(self, number: int, episode: Episode, trial: Trial | None, *, update: bool) -> None:
         episode.attempts += 1
         turn = (number + episode.id) % 6
         if turn == 4:
             with succeeds("refuse takes note that a policy must not be executed", "Go on without"):
                 self.explorer.refuse(episode)
-        elif turn != 5:  # Else it failed, of which an explorer does not hear.
-            outcome = {} if turn == 3 else self.world.execute(policy, episode.context)
-            self._learn(episode, Trial(policy, outcome, episode.context))
+        if trial is not None:  # Of what failed, an explorer does not hear.
+            self._learn(episode, trial, update=update)
+
+    def _move(self, number: int, episode: Episode) -> None:
+        turn = (number + episode.id) % 6
         if self.task.context_space is not None and turn == 2:
             episode.context = self.world.context(
                 self.world.streams(f"testing/{number}", episode.id)
@@ -146,8 +173,9 @@ class _Run:
             with succeeds("begin starts anew when the context has changed", "Replace the state"):
                 self.explorer.begin(episode)
 
-    def _learn(self, episode: Episode, trial: Trial) -> None:
-        self.model.update(trial)
+    def _learn(self, episode: Episode, trial: Trial, *, update: bool) -> None:
+        if update:
+            self.model.update(trial)
         episode.movements += 1
         shown = self.model.shown_by(trial, episode.goal, episode.context)
         best = self.model.competence(episode.goal, episode.context) if shown is None else shown

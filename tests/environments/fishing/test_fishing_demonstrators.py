@@ -7,7 +7,7 @@ from sgim.environments import FishingRod, fishing_demonstrations, fishing_teache
 from sgim.environments.fishing import demonstrators
 from sgim.environments.fishing.demonstrators import DEMONSTRATORS, write_policies, write_recordings
 from sgim.environments.fishing.model import JOINTS
-from sgim.environments.fishing.movement import AMPLITUDES, HOME, PRIMITIVE
+from sgim.environments.fishing.movement import AMPLITUDES, FISHING, HOME
 from sgim.environments.fishing.reaching import reaching
 from sgim.errors import SgimError, UnknownNameError
 from sgim.records import Demonstration, Outcome, Trajectory
@@ -70,7 +70,7 @@ def test_a_kinaesthetic_demonstration_led_again_lands_where_it_did() -> None:
 def test_recorded_movements_are_fitted_within_a_degree_and_land_near() -> None:
     misses = []
     for shown in fishing_demonstrations(3)[::8]:
-        policy, residual = PRIMITIVE.fit(shown.trajectory)  # type: ignore[arg-type]
+        policy, residual = FISHING.fit(shown.trajectory)  # type: ignore[arg-type]
         assert np.degrees(residual) < 1
         landing = STILL.execute(policy).get("float", np.full(2, np.inf))
         misses.append(np.linalg.norm(landing - shown.outcome["float"]))
@@ -126,7 +126,7 @@ def test_an_unknown_demonstrator_is_refused() -> None:
 
 
 def test_missing_data_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(demonstrators, "KINAESTHETIC", "none.npz")
+    monkeypatch.setattr(demonstrators, "RECORDINGS", "none.npz")
     with pytest.raises(SgimError, match=r"no data 'none\.npz'"):
         fishing_demonstrations(3)
 
@@ -136,8 +136,9 @@ def test_what_is_written_is_read_again(tmp_path: Path, monkeypatch: pytest.Monke
     monkeypatch.setattr(demonstrators, "files", lambda package: tmp_path)
     recording = reaching(HOME + 0.3 * AMPLITUDES, 1.1)
     write_recordings(
-        tmp_path / "data" / demonstrators.KINAESTHETIC,
+        tmp_path / "data" / demonstrators.RECORDINGS,
         [Demonstration({"float": np.array([0.1, y])}, trajectory=recording) for y in (-0.2, 0.2)],
+        "float",
     )
     behind, ahead = fishing_demonstrations(3)
     assert behind.trajectory is not None

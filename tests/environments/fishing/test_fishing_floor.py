@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from sgim.environments import FishingFloor
-from sgim.environments.fishing.floor import ENCODING, FAR, VIEW_LOW
+from sgim.environments.fishing.floor import FAR, MOVEMENTS, VIEW_LOW
 from sgim.environments.fishing.model import BALL_RADIUS, FLOOR
 from sgim.environments.fishing.movement import AMPLITUDES, HOME
 from sgim.environments.fishing.simulator import Simulator
@@ -42,7 +42,7 @@ def test_a_ball_that_is_lowered_comes_to_rest_on_the_floor_in_view() -> None:
     assert STILL.task.outcome_spaces["ball"].contains(seen)
     simulator = Simulator(FLOOR)
     times = np.arange(800) * simulator.step
-    position, speed = simulator.end(ENCODING.path(policy_to(LOWERED), times))
+    position, speed = simulator.end(MOVEMENTS.positions([policy_to(LOWERED)], times)[0])
     assert position[2] == pytest.approx(FLOOR.floor + BALL_RADIUS, abs=0.003)  # type: ignore[operator]
     assert speed < 0.02
     np.testing.assert_allclose(seen, position[:2] - VIEW_LOW, atol=1e-9)

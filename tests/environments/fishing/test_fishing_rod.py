@@ -107,8 +107,8 @@ def test_outcomes_scatter_with_the_factor_of_the_noise() -> None:
 
 def test_a_recorded_movement_of_the_joints_can_be_followed() -> None:
     policy = random_policies(1, seed=5)[0]
-    times = np.linspace(0, FISHING.duration(policy), 300)
-    recorded = Trajectory(times + 7, FISHING.path(policy, times), JOINTS, "rad")
+    times = np.linspace(0, FISHING.durations(policy[None])[0], 300)
+    recorded = Trajectory(times + 7, FISHING.positions(policy[None], times)[0], JOINTS, "rad")
     expected = STILL.execute(policy)["float"]
     np.testing.assert_allclose(STILL.follow(recorded)["float"], expected, atol=1e-3)
     with pytest.raises(SpaceError, match=r"expected base, shoulder, .* in rad"):

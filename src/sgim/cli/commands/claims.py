@@ -28,6 +28,10 @@ def command(
         int | None,
         arg(metavar="MOVEMENTS", help_behavior_hint="(default: the last evaluation that all have)"),
     ] = None,
+    by: Annotated[
+        str | None,
+        arg(metavar="WAY", help_behavior_hint="(default: as the runs were measured)"),
+    ] = None,
     seed: int = 0,
     details: bool = False,
     as_json: Annotated[bool, arg(name="json")] = False,
@@ -45,7 +49,8 @@ def command(
     whose learners have no runs says which it needs.
 
     Variants of an experiment, and configurations with settings that differ, are plausible worlds:
-    where there are several, a last table counts in how many each claim is reproduced.
+    where there are several, a last table counts in how many each claim holds: there, p-values are
+    not corrected.
 
     Examples:
       sgim claims throwing
@@ -53,24 +58,29 @@ def command(
       sgim sweep throwing-5 --learners sgim-acts,demonstrations-first --seeds 0-19 --out runs/s
       sgim claims throwing --runs runs/s
       sgim claims throwing --runs runs/s --configuration modern --details
-      sgim claims --runs runs/s --json
+      sgim claims --runs runs/s --json --details
 
     Args:
         chapters: Chapters whose claims to decide.
         runs: Directory of journals, as sgim sweep writes them.
         configuration: Only runs of this configuration, and of it with other settings.
         at: Decide at this evaluation; runs that have not got there are left out.
+        by: Measure the runs again by this way of answering, such as nearest or reliable; what is
+            found is kept beside the journals.
         seed: Of the bootstrap.
-        details: Also print each claim's sentence and all its tests.
-        as_json: Print JSON with everything, also the numbers of each run.
+        details: Also print each claim's sentence and all its tests; in JSON, all tests with the
+            numbers of each run.
+        as_json: Print JSON.
     """
     chosen = [chapter(name) for name in dict.fromkeys(chapters or CHAPTERS)]
     if runs is None:
         for one in chosen:
             print_chapter(one, sys.stdout)
         return
-    found = report(find_journals([runs]), chosen, configuration=configuration, at=at, seed=seed)
+    found = report(
+        find_journals([runs]), chosen, configuration=configuration, at=at, by=by, seed=seed
+    )
     if as_json:
-        print(json.dumps(found.as_json(), indent=2, ensure_ascii=False))
+        print(json.dumps(found.as_json(details=details), indent=1, ensure_ascii=False))
         return
     print_report(found, sys.stdout, details=details)

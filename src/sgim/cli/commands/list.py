@@ -6,6 +6,7 @@ from sgim.algorithms import ALGORITHMS
 from sgim.cli.text import table
 from sgim.configurations import CONFIGURATIONS, Configuration
 from sgim.experiments import EXPERIMENTS
+from sgim.labels import LABEL_ALGORITHMS
 
 
 def command() -> None:
@@ -19,7 +20,8 @@ def command() -> None:
         if experiment.variant_of is None:
             rows += [["", f"teacher {name}: {line}"] for name, line in experiment.teachers.items()]
     print("experiments\n" + table(rows))
-    rows = [[name, _first_line(make.__doc__)] for name, make in ALGORITHMS.items()]
+    learners = {**ALGORITHMS, **{n: m for n, m in LABEL_ALGORITHMS.items() if n not in ALGORITHMS}}
+    rows = [[name, _first_line(make.__doc__)] for name, make in learners.items()]
     print("\nlearners\n" + table(rows))
     rows = [[name, _described(c)] for name, c in CONFIGURATIONS.items()]
     print("\nconfigurations\n" + table(rows))

@@ -11,7 +11,16 @@ from typing import TYPE_CHECKING, Annotated, Literal
 from tyro.conf import Positional, arg
 
 from sgim.errors import SgimError
-from sgim.figures import choices, choices_by_kind, error_curves, explored
+from sgim.figures import (
+    choices,
+    choices_by_kind,
+    error_curves,
+    explored,
+    of_worlds,
+    performance_profiles,
+    places,
+    progress,
+)
 from sgim.figures.curves import Band
 from sgim.figures.style import NothingToDrawError
 from sgim.runs.costs import Prices
@@ -34,9 +43,23 @@ def command(
 
     NAME-errors     errors over movements, a line with a band for each learner
     NAME-costs      the same over the time of robot and persons, if anybody was asked
+    NAME-profiles   share of a learner's runs whose last error is at most so much
     NAME-choices    modes and kinds of goal chosen over time, all seeds together
     NAME-strategies modes chosen for each kind of goal, by learners that choose both
+    NAME-progress   modes chosen over time, and what each gained per movement
+    NAME-outcomes   how often each learner's movements ended where
+    NAME-goals      how often each learner aimed where
     RUN-explored    what has been explored, for one run of each learner, or for --each
+
+    Where objects are recognised, also:
+    NAME-recognised pictures recognised over episodes
+    RUN-f-measures  how well each object is told apart, and which was manipulated
+
+    Of vocal runs also:
+    NAME-classes    classes of sounds over time in all runs, and the stages counted
+    RUN-stages      the same of one run, with the types of sounds in each stage
+    RUN-densities   goals, commands and sounds over time
+    RUN-sounds      early and mature sounds, and those of the ambient language
 
     The line is the interquartile mean of the runs and the band its 95 % bootstrap interval at
     each evaluation; with --band quartiles, the median and the quartiles. sgim compare says
@@ -70,9 +93,14 @@ def command(
         drawings: list[tuple[str, Callable[[], Figure]]] = [
             (f"{stem}-errors", partial(error_curves, runs, band=band)),
             (f"{stem}-costs", partial(error_curves, runs, band=band, prices=prices)),
+            *([(f"{stem}-profiles", partial(performance_profiles, runs))] if len(runs) > 1 else []),
             (f"{stem}-choices", partial(choices, runs)),
             (f"{stem}-strategies", partial(choices_by_kind, runs)),
+            (f"{stem}-progress", partial(progress, runs)),
+            (f"{stem}-outcomes", partial(places, runs, "outcomes")),
+            (f"{stem}-goals", partial(places, runs, "goals")),
             *((f"{path.stem}-explored", partial(explored, path)) for path in chosen),
+            *of_worlds.drawings(stem, runs, chosen),
         ]
         for title, draw in drawings:
             file = out / f"{title}.{format}"

@@ -19,9 +19,16 @@ def command(
     experiment: Annotated[Positional[str], arg(metavar="EXPERIMENT")],
     learner: Annotated[
         str | None,
-        arg(metavar="NAME", help_behavior_hint="(default: sgim-acts, or sagg-riac if no teachers)"),
+        arg(metavar="NAME", help_behavior_hint="(default: the experiment's)"),
     ] = None,
-    teacher: Annotated[str | None, arg(metavar="NAME", help_behavior_hint="(default: all)")] = None,
+    teacher: Annotated[
+        str | None,
+        arg(
+            metavar="NAME",
+            aliases=("--caregiver",),
+            help_behavior_hint="(default: the experiment's)",
+        ),
+    ] = None,
     configuration: Annotated[str, arg(metavar="NAME")] = "modern",
     every: Annotated[
         int | None,
@@ -35,10 +42,12 @@ def command(
         Path | None,
         arg(metavar="PATH", help_behavior_hint="(default: runs/EXPERIMENT-LEARNER-SEED.sgim)"),
     ] = None,
-    batch: int = 1,
+    batch: Annotated[
+        int | None, arg(metavar="INT", help_behavior_hint="(default: the experiment's)")
+    ] = None,
     evaluate_every: Annotated[
         int | None,
-        arg(metavar="INT", help_behavior_hint="(default: at most 1000, and a quarter of the run)"),
+        arg(metavar="INT", help_behavior_hint="(default: at most the experiment's, and a quarter)"),
     ] = None,
     warm_start: Annotated[
         Path | None, arg(metavar="PATH", help_behavior_hint="(default: nothing)")
@@ -57,7 +66,7 @@ def command(
     Args:
         experiment: Name of the experiment; sgim list has them.
         learner: Name of the learner; sgim list has them.
-        teacher: The only teacher to ask; mimicry:T1 as learner says the same.
+        teacher: The only teacher to ask, or none; mimicry:T1 as learner says the same.
         configuration: The learner's constants: modern or thesis.
         every: Movements from one demonstration to the next, for sgim-d and imitation.
         seed: Of all random numbers; the same seed gives the same run.
@@ -69,9 +78,8 @@ def command(
     """
     world = find_experiment(experiment)
     configuration = demonstrations_every(configuration, every)
-    name = learner or world.default_learner
-    if teacher is not None:
-        name = f"{name.partition(':')[0]}:{teacher}"
+    name = world.learner_name(learner, teacher)
+    batch = world.batch if batch is None else batch
     for what, value, least in (("seed", seed, 0), ("movements", movements, 1), ("batch", batch, 1)):
         if value is not None and value < least:
             raise SgimError(f"{what} is {value}, expected {least} or more")
@@ -103,7 +111,7 @@ def command(
         configuration=configuration,
         seed=seed,
         batch=batch,
-        evaluate_every=evaluate_every or evaluation_interval(target),
+        evaluate_every=evaluate_every or evaluation_interval(target, world.evaluate_every),
         warm_start=warm_start,
     )
     return go(run, path, target)

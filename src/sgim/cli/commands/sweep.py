@@ -2,26 +2,27 @@
 
 from __future__ import annotations
 
-import sys
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 from tyro.conf import Positional, arg
 
+from sgim.cli.sweeping import Where, sweep_and_say
 from sgim.cli.text import demonstrations_every, shell
 from sgim.errors import SgimError
-from sgim.experiments import experiment as find_experiment
-from sgim.experiments.experiment import evaluation_interval
-from sgim.runs.progress import SweepProgress
-from sgim.runs.run import Interrupted
-from sgim.runs.sweep import SweptRun, sweep
+from sgim.experiments.sweep_plan import Part, parse_seeds, plan, read_sweep_file
 
 
 def command(
-    experiment: Annotated[Positional[str], arg(metavar="EXPERIMENT")],
-    learners: Annotated[str, arg(metavar="A,B,…")],
-    seeds: Annotated[str, arg(metavar="0-19")],
-    configuration: Annotated[str, arg(metavar="NAME")] = "modern",
+    experiments: Annotated[Positional[str], arg(metavar="EXPERIMENT,…|FILE.toml")],
+    learners: Annotated[str | None, arg(metavar="A,B,…", help_behavior_hint="")] = None,
+    seeds: Annotated[str | None, arg(metavar="0-19", help_behavior_hint="")] = None,
+    configuration: Annotated[
+        tuple[str, ...], arg(metavar="NAME…", help_behavior_hint="(default: modern)")
+    ] = (),
+    teachers: Annotated[
+        str | None, arg(metavar="T1,…", help_behavior_hint="(default: named with the learner)")
+    ] = None,
     every: Annotated[
         int | None,
         arg(metavar="INT", help_behavior_hint="(default: the configuration's)"),
@@ -29,92 +30,91 @@ def command(
     movements: Annotated[
         int | None, arg(metavar="INT", help_behavior_hint="(default: the experiment's)")
     ] = None,
-    batch: int = 1,
+    batch: Annotated[
+        int | None, arg(metavar="INT", help_behavior_hint="(default: the experiment's)")
+    ] = None,
     evaluate_every: Annotated[
         int | None,
-        arg(metavar="INT", help_behavior_hint="(default: at most 1000, and a quarter of the run)"),
+        arg(metavar="INT", help_behavior_hint="(default: at most the experiment's, and a quarter)"),
     ] = None,
-    jobs: int = 2,
-    out: Path = Path("runs"),
+    out: Annotated[Path | None, arg(metavar="DIR", help_behavior_hint="(default: runs)")] = None,
+    where: Annotated[Where, arg(name="")] = Where(),  # noqa: B008 - frozen
 ) -> int:
     """Run every learner with every seed, side by side, one journal each.
 
     Runs that are finished are not repeated, and runs that were stopped go on: after a stop, give
-    the same command again. A run that fails does not stop the others.
+    the same command again. A run that fails, or whose process dies, is tried again; if that does
+    not help it is reported, and the others go on.
+
+    With --backend dask or ray the runs are made by a cluster: the one whose scheduler or address
+    is given, or one on this machine. The directory of the journals must then be on storage that
+    all its machines share, at the same path.
+
+    A file in TOML has the same words as keys, and may have several parts:
+
+      out = "runs/mine"
+      seeds = "0-19"
+      [[sweep]]
+      experiments = ["throwing", "throwing-5"]
+      learners = ["sgim-acts", "mimicry:T1"]
+      configurations = ["modern", "modern,prior=0.1"]
 
     Examples:
       sgim sweep throwing --learners sgim-acts,sagg-riac,mimicry:T1 --seeds 0-19 --out runs/throwing
+      sgim sweep throwing,throwing-5 --learners mimicry,emulation --teachers T1,T2 --seeds 0-9
+      sgim sweep mine.toml --backend dask --scheduler tcp://head:8786
       sgim compare runs/throwing
-      sgim plot runs/throwing --out figures
 
     Args:
-        experiment: Name of the experiment; sgim list has them.
+        experiments: Names of experiments, with commas between (sgim list has them), or a file.
         learners: Names of learners, with commas between.
         seeds: Seeds, such as 0-19 or 0,3,5-7.
-        configuration: The learners' constants: modern or thesis.
+        configuration: The learners' constants: modern or thesis, with settings that differ.
+        teachers: For learners that ask one teacher: a run for each of these.
         every: Movements from one demonstration to the next, for sgim-d and imitation.
         movements: How many movements each run makes.
         batch: Movements of a run that are carried out side by side.
         evaluate_every: Movements between evaluations.
-        jobs: How many runs are made at once, each in its own process.
         out: Directory of the journals.
+        where: Where the runs are made.
     """
-    world = find_experiment(experiment)
-    configuration = demonstrations_every(configuration, every)
-    names = [name.strip() for name in learners.split(",") if name.strip()]
-    numbers = parse_seeds(seeds)
-    for name in names:
-        world.learner(name, configuration=configuration)
-    target = world.movements if movements is None else movements
-    shown = SweepProgress(world.name, len(names) * len(numbers))
-    try:
-        with shown:
-            results = sweep(
-                world,
-                names,
-                numbers,
-                configuration=configuration,
-                movements=target,
-                batch=batch,
-                evaluate_every=evaluate_every or evaluation_interval(target),
-                jobs=jobs,
-                out=out,
-                on_end=shown.ended,
-            )
-    except Interrupted as stop:
-        print(f"sgim: {stop}; to go on, give the same command again", file=sys.stderr)
-        return 130
-    return _report(results, out)
+    said: dict[str, Any] = {
+        "learners": learners,
+        "seeds": seeds,
+        "configuration": configuration or None,
+        "teachers": teachers,
+        "every": every,
+        "movements": movements,
+        "batch": batch,
+        "evaluate_every": evaluate_every,
+    }
+    if experiments.endswith(".toml"):
+        if given := [name for name, value in said.items() if value is not None]:
+            options = ", ".join(f"--{name.replace('_', '-')}" for name in given)
+            raise SgimError(f"{options}: what to run is said by {experiments}; write it there")
+        file = read_sweep_file(Path(experiments))
+        parts, settings, title = file.parts, file.settings, Path(experiments).stem
+    else:
+        if learners is None or seeds is None:
+            raise SgimError("say which --learners and --seeds, or name a file FILE.toml")
+        part = Part(
+            _names(experiments),
+            _names(learners),
+            tuple(parse_seeds(seeds)),
+            tuple(demonstrations_every(name, every) for name in configuration or ("modern",)),
+            _names(teachers or ""),
+            movements,
+            batch,
+            evaluate_every,
+        )
+        parts, settings, title = (part,), {}, experiments
+    folder = out or Path(settings.get("out", "runs"))
+    found = sweep_and_say(title, plan(parts), folder, where.over(settings))
+    if found.code == 0:
+        print(f"compare  {shell('sgim', 'compare', folder)}")
+        print(f"figures  {shell('sgim', 'plot', folder, '--out', 'figures')}")
+    return found.code
 
 
-def parse_seeds(text: str) -> list[int]:
-    """The numbers that ``0,3,5-7`` stands for.
-
-    Raises:
-        SgimError: If it is not of that form.
-    """
-    seeds: dict[int, None] = {}
-    for part in text.split(","):
-        first, dash, last = part.strip().partition("-")
-        if not first.isdecimal() or (dash and not last.isdecimal()):
-            raise SgimError(f"--seeds {text!r}: expected numbers and ranges, such as 0-19 or 0,3-5")
-        numbers = range(int(first), int(last or first) + 1)
-        if not numbers:
-            raise SgimError(f"--seeds {text!r}: the range {part} has no number; write it upwards")
-        seeds.update(dict.fromkeys(numbers))
-    return list(seeds)
-
-
-def _report(results: list[SweptRun], out: Path) -> int:
-    failed = [result for result in results if result.status == "failed"]
-    known = sum(result.status == "known" for result in results)
-    before = f", {known} of them before" if known else ""
-    print(f"{len(results) - len(failed)} of {len(results)} runs are finished{before}: {out}")
-    for result in failed:
-        print(f"\nsgim: {result.path} failed:\n{result.error.rstrip()}", file=sys.stderr)
-    if failed:
-        print("\nMend it, then give the same command again.", file=sys.stderr)
-        return 1
-    print(f"compare  {shell('sgim', 'compare', out)}")
-    print(f"figures  {shell('sgim', 'plot', out, '--out', 'figures')}")
-    return 0
+def _names(text: str) -> tuple[str, ...]:
+    return tuple(name.strip() for name in text.split(",") if name.strip())

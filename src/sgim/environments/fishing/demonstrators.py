@@ -21,11 +21,15 @@ from sgim.records import Demonstration, Trajectory
 from sgim.task import Task
 from sgim.teachers import LeastExplored, Teacher
 
-KINAESTHETIC = "fishing_kinaesthetic.npz"
+RECORDINGS = "fishing_kinaesthetic.npz"
+FLOOR_RECORDINGS = "fishing_floor_kinaesthetic.npz"
 LEARNED = {1: "fishing_learned_random.npz", 2: "fishing_learned_reliable.npz"}
 
 TILE = 1 / 6
 """Length of the sides of the tiles that teachers watch, in m; each has about one demonstration."""
+
+FLOOR_TILE = 1 / 6
+"""The same for the floor, in sides of the view."""
 
 DEMONSTRATORS = {
     1: "movements of a learner, drawn at random",
@@ -53,7 +57,7 @@ def fishing_demonstrations(demonstrator: int) -> list[Demonstration]:
         raise unknown("demonstrator", demonstrator, map(str, DEMONSTRATORS))
     if demonstrator in LEARNED:
         return _read_policies(LEARNED[demonstrator])
-    shown = _read_recordings(KINAESTHETIC)
+    shown = _read_recordings(RECORDINGS, "float")
     if demonstrator == 3:
         return shown
     behind = demonstrator == 4
@@ -66,12 +70,22 @@ def fishing_teacher(demonstrator: int, task: Task) -> Teacher:
     return LeastExplored(shown, task, kind="float", tile=TILE)
 
 
-def write_recordings(path: Path, demonstrations: Sequence[Demonstration]) -> None:
+def floor_demonstrations() -> list[Demonstration]:
+    """What the floor's teacher has to show: recorded movements, as those of demonstrator 3."""
+    return _read_recordings(FLOOR_RECORDINGS, "ball")
+
+
+def floor_teacher(task: Task) -> Teacher:
+    """The floor's teacher, who shows what the learner has explored least; one for each run."""
+    return LeastExplored(floor_demonstrations(), task, kind="ball", tile=FLOOR_TILE)
+
+
+def write_recordings(path: Path, demonstrations: Sequence[Demonstration], kind: str) -> None:
     """Write demonstrations that are trajectories of the arm's joints, in rad."""
     recordings = [d.trajectory for d in demonstrations if d.trajectory is not None]
     np.savez_compressed(
         path,
-        landings=np.array([d.outcome["float"] for d in demonstrations]),
+        landings=np.array([d.outcome[kind] for d in demonstrations]),
         samples=np.array([len(r.times) for r in recordings]),
         times=np.concatenate([r.times for r in recordings]),
         positions=np.concatenate([r.positions for r in recordings]).astype(np.float32),
@@ -88,7 +102,7 @@ def write_policies(path: Path, demonstrations: Sequence[Demonstration]) -> None:
     )
 
 
-def _read_recordings(name: str) -> list[Demonstration]:
+def _read_recordings(name: str, kind: str) -> list[Demonstration]:
     stored = _read(name)
     ends = np.cumsum(stored["samples"])[:-1]
     joints = tuple(stored["joints"].tolist())
@@ -99,7 +113,7 @@ def _read_recordings(name: str) -> list[Demonstration]:
         strict=True,
     )
     return [
-        Demonstration({"float": landing}, trajectory=Trajectory(times, positions, joints, "rad"))
+        Demonstration({kind: landing}, trajectory=Trajectory(times, positions, joints, "rad"))
         for landing, times, positions in parts
     ]
 

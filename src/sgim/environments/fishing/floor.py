@@ -2,22 +2,19 @@
 
 from __future__ import annotations
 
-import math
-from typing import Any
-
 import numpy as np
 
-from sgim.environments.base import Environment
 from sgim.environments.fishing.model import BALL_RADIUS, FLOOR
-from sgim.environments.fishing.movement import Encoding
-from sgim.environments.fishing.noise import commanded
-from sgim.environments.fishing.simulator import Simulator
-from sgim.errors import SpaceError
+from sgim.environments.fishing.movement import joint_movements
+from sgim.environments.fishing.rig import Rig
 from sgim.records import Outcome
 from sgim.spaces import Box, FloatArray
 from sgim.task import Task
 
-ENCODING = Encoding(via_points=9, shortest=2.0, longest=2.0)
+DURATION = 2.0
+"""Of every movement, in s."""
+
+MOVEMENTS = joint_movements(via_points=9, shortest=DURATION, longest=DURATION)
 """54 numbers: nine via points for each joint, spread over 2 s."""
 
 HOLD = 2.0
@@ -34,7 +31,7 @@ _RESTING_SPEED = 0.02
 _TOUCHING = 0.003
 
 
-class FishingFloor(Environment):
+class FishingFloor(Rig):
     """The arm and the rod above a floor, with a ball at the end of the line (section 3.6).
 
     The thesis gives this robot both 54 and 52 parameters; here there are 54, nine via points for
@@ -56,34 +53,17 @@ class FishingFloor(Environment):
     """
 
     def __init__(self, noise: float = 0.4) -> None:
-        if not 0 <= noise < math.inf:
-            raise SpaceError(f"noise is {noise}, expected a factor of 0 or more")
-        self.noise = noise
-        self.deterministic = noise == 0
-        self._simulator = Simulator(FLOOR)
+        super().__init__(FLOOR, MOVEMENTS, HOLD, noise)
         assert FLOOR.floor is not None
         self._lying = FLOOR.floor + BALL_RADIUS
-        steps = round((ENCODING.longest + HOLD) / self._simulator.step)
-        self._times = np.asarray(np.arange(steps) * self._simulator.step, dtype=np.float64)
         self.task = Task(
-            ENCODING.policy_space,
+            MOVEMENTS.policy_space,
             {"ball": Box([0, 0], [1, 1], names=("x", "y"), unit="views")},
+            primitive=MOVEMENTS,
             tolerances={"ball": 0.02},
         )
 
-    def execute(
-        self, policy: Any, context: Any = None, rng: np.random.Generator | None = None
-    ) -> Outcome:
-        """Execute one policy, shape ``(54,)``; bounds are not checked.
-
-        Raises:
-            SpaceError: If the policy is malformed, or noise has no generator.
-            SgimError: If the simulation becomes unstable.
-        """
-        point = ENCODING.policy_space.check(policy, "policy")
-        set_points = commanded(
-            lambda times: ENCODING.path(point, times), self._times, self.noise, rng
-        )
+    def _observed(self, set_points: FloatArray) -> Outcome:
         return {"ball": self._seen(*self._simulator.end(set_points))}
 
     def _seen(self, position: FloatArray, speed: float) -> FloatArray:

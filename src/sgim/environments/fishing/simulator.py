@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import importlib
 from collections.abc import Sequence
 from functools import cache
 from typing import Any
@@ -11,6 +10,7 @@ import numpy as np
 
 from sgim.environments.fishing.model import Variant, rod_model
 from sgim.environments.fishing.movement import HOME
+from sgim.environments.mujoco import mujoco
 from sgim.errors import SgimError
 from sgim.spaces import FloatArray
 
@@ -18,21 +18,6 @@ _SETTLING_TIME = 40.0
 # The wildest of some thousand movements whipped the line at 88 rad/s and the float at 15 m/s.
 _FASTEST_HINGE = 300.0
 _FASTEST_FLOAT = 25.0
-
-
-def mujoco() -> Any:
-    """The module ``mujoco``.
-
-    Raises:
-        SgimError: If it is not installed.
-    """
-    try:
-        return importlib.import_module("mujoco")
-    except ImportError as error:
-        raise SgimError(
-            "the fishing rod is simulated by MuJoCo, which is not installed; "
-            "install it with: pip install 'sgim[mujoco]'"
-        ) from error
 
 
 class Simulator:
@@ -52,8 +37,8 @@ class Simulator:
     """
 
     def __init__(self, variant: Variant) -> None:
-        self._mujoco = mujoco()
-        self._model, self._start = _prepared(variant)
+        self._mujoco = mujoco("the fishing rod is simulated")
+        self._model, self._start = prepared(variant)
         self._data = self._mujoco.MjData(self._model)
         self._float = int(self._model.body("float").id)
         self.step = variant.step
@@ -168,9 +153,9 @@ class Simulator:
 
 
 @cache
-def _prepared(variant: Variant) -> tuple[Any, FloatArray]:
-    """The model, and the joint angles at home with the line hanging at rest."""
-    engine = mujoco()
+def prepared(variant: Variant) -> tuple[Any, FloatArray]:
+    """The MuJoCo model, and its joint angles at home with the line hanging at rest."""
+    engine = mujoco("the fishing rod is simulated")
     settling = engine.MjModel.from_xml_string(rod_model(variant, settling=True))
     data = engine.MjData(settling)
     data.qpos[: len(HOME)] = data.act[:] = data.ctrl[:] = HOME
