@@ -8,8 +8,7 @@ import pytest
 from tests.helpers import PLANE, plane, random_policies, remember
 
 from sgim import algorithms
-from sgim.environments import PlanarArm, ThrowingArm
-from sgim.environments.arm import ARMS
+from sgim.environments import ARMS, PlanarArm, ThrowingArm
 from sgim.environments.benchmark_goals import reachable_goals, throwing_goals
 from sgim.errors import SgimError, UnknownNameError
 from sgim.memory import Memory
