@@ -3,7 +3,8 @@
 Run it as ``python benchmarks/learner.py``; ``--long`` adds the 100 000 movements and
 ``--memory`` a million trials. Times are per movement, all in: deciding, simulating, learning,
 the journal, and the evaluations. They are printed beside a fixed loop of small NumPy operations
-timed in the same process, so that machines can be compared by the ratio.
+timed in the same process, so that machines can be compared by the ratio. Random policies cost
+nothing to decide, so that their time is that of the bookkeeping.
 """
 
 from __future__ import annotations
@@ -36,14 +37,22 @@ def main() -> None:
     parser.add_argument("--memory", action="store_true", help="also a million remembered trials")
     options = parser.parse_args()
     throwing = experiment("throwing")
-    reference, single, batched = [], [], []
+    kinds = {
+        "one movement at a time": (options.learner, 1),
+        "64 at a time": (options.learner, 64),
+        "400 at a time": (options.learner, 400),
+        "random policies, one at a time": ("random", 1),
+        "random policies, 400 at a time": ("random", 400),
+    }
+    reference: list[float] = []
+    times: dict[str, list[float]] = {name: [] for name in kinds}
     for _ in range(options.repeats):  # in turn, so that a drifting machine is fair to all
         reference.append(reference_loop())
-        single.append(run(throwing, options, 1))
-        batched.append(run(throwing, options, 64))
+        for name, (learner, batch) in kinds.items():
+            times[name].append(run(throwing, options, learner, batch))
     row("reference: fixed NumPy loop, an iteration", reference, reference)
-    row("one movement at a time", single, reference)
-    row("64 at a time", batched, reference)
+    for name in kinds:
+        row(name, times[name], reference)
     asks = [asking(throwing, options, 1), asking(throwing, options, 64)]
     print(
         f"a plan by ask {asks[0]:.1f} µs, by ask_batch(64) {asks[1]:.1f} µs: "
@@ -78,9 +87,9 @@ def reference_loop(iterations: int = 20000) -> float:
     return (time.process_time() - start) / iterations * 1e6
 
 
-def run(throwing, options, batch: int) -> float:
+def run(throwing, options, name: str, batch: int) -> float:
     with tempfile.TemporaryDirectory() as folder:
-        learner = throwing.learner(options.learner, configuration=options.configuration)
+        learner = throwing.learner(name, configuration=options.configuration)
         with throwing.run(learner, Path(folder) / "run.sgim", batch=batch) as going:
             start = time.process_time()
             going.go(options.movements)

@@ -1,7 +1,8 @@
 """Times the page: from a drag to the answered pose, and what watching costs a run.
 
 Run it as ``python benchmarks/page.py`` (drags), or with ``--watch`` (a run with and without a page
-that watches it, in the same process and beside it).
+that watches it, in the same process and beside it: its CPU time, so that what else the machine
+does counts little).
 """
 
 from __future__ import annotations
@@ -119,37 +120,36 @@ def explore_on(run: sgim.Run, pace: float | None, over: threading.Event) -> None
 
 
 def explore(folder: Path, name: str, movements: int, watched: str) -> float:
-    """Seconds that a run takes, watched by nobody, by a page in its process, or by another."""
+    """CPU seconds of a run's process, watched by nobody, by a page in it, or by another."""
     arm = ThrowingArm()
     learner = sgim.algorithms.make("random-goal-babbling", arm.task, seed=1)
     path = folder / f"{name}.sgim"
     run = sgim.Run(learner, arm, journal=path, batch=400)
     run.journal.commit()  # type: ignore[union-attr]
-    page: object = None
-    ready = threading.Event()
-    if watched == "here":
-        page = serve(run, port=0)
-        url = page.url  # type: ignore[attr-defined]
-    elif watched == "beside":
+    others: list[subprocess.Popen[str]] = []
+    page = serve(run, port=0) if watched == "here" else None
+    url = "" if page is None else page.url
+    if watched == "beside":
         command = [sys.executable, "-m", "sgim.cli", "watch", str(path), "--port", "0"]
-        page = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
-        url = next(line for line in page.stdout if line.startswith("open")).split()[1]
-    if watched != "nobody":
-        threading.Thread(target=lambda: asyncio.run(look(url, ready)), daemon=True).start()
-        ready.wait(20)
-    begun = time.perf_counter()
+        others.append(subprocess.Popen(command, stdout=subprocess.PIPE, text=True))
+        url = next(line for line in others[0].stdout or () if line.startswith("open")).split()[1]
+    if url:
+        command = [sys.executable, __file__, "--look", url]
+        others.append(subprocess.Popen(command, stdout=subprocess.PIPE, text=True))
+        next(iter(others[-1].stdout or ()))
+    begun = time.process_time()
     run.go(movements)
-    took = time.perf_counter() - begun
+    took = time.process_time() - begun
+    for other in reversed(others):
+        other.kill()
+        other.communicate()
+    if page is not None:
+        page.close()
     run.close()
-    if watched == "here":
-        page.close()  # type: ignore[attr-defined]
-    elif watched == "beside":
-        page.kill()  # type: ignore[attr-defined]
-        page.wait()  # type: ignore[attr-defined]
     return took
 
 
-async def look(url: str, ready: threading.Event) -> None:
+async def look(url: str) -> None:
     """Read all that a page is sent, as a browser does, until it is closed."""
     host = urlsplit(url).netloc
     async with websockets.connect(
@@ -160,21 +160,21 @@ async def look(url: str, ready: threading.Event) -> None:
         hello = {"what": "hello", "version": 1, "page": "looker", "name": "looker"}
         await socket.send(json.dumps(hello))
         async for _ in socket:
-            ready.set()
+            print("looking", flush=True)
 
 
 def time_watching(folder: Path, movements: int, rounds: int) -> None:
-    """How much slower a run is when it is watched, in turn with one that is not."""
+    """How much more a run's process has to do when it is watched, in turn with one that is not."""
     times: dict[str, list[float]] = {"nobody": [], "here": [], "beside": []}
     for number in range(rounds):
         for watched, kept in times.items():
             kept.append(explore(folder, f"{watched}{number}", movements, watched))
-            print(f"{watched:8} {kept[-1]:.1f} s", flush=True)
+            print(f"{watched:8} {kept[-1]:.2f} s of CPU", flush=True)
     for watched in ("here", "beside"):
         pairs = zip(times[watched], times["nobody"], strict=True)
         ratios = sorted(one / other for one, other in pairs)
         print(
-            f"watched {watched}: {statistics.median(ratios):.3f} times as long "
+            f"watched {watched}: {statistics.median(ratios):.3f} times as much "
             f"({ratios[0]:.3f} to {ratios[-1]:.3f}), {movements} movements"
         )
 
@@ -183,9 +183,13 @@ def main() -> None:
     """Time what is asked for."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--watch", action="store_true")
+    parser.add_argument("--look", help="only read what a page of this address is sent")
     parser.add_argument("--movements", type=int, default=VOCALISATIONS)
     parser.add_argument("--rounds", type=int, default=3)
     given = parser.parse_args()
+    if given.look:
+        asyncio.run(look(given.look))
+        return
     with tempfile.TemporaryDirectory() as name:
         if given.watch:
             time_watching(Path(name), given.movements, given.rounds)

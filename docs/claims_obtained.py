@@ -118,13 +118,17 @@ class ClaimsObtained(SphinxDirective):
         chapter, configuration = plausible["chapter"], plausible["configuration"]
         section = nodes.section(ids=[f"obtained-{chapter}-{configuration}-worlds"])
         section += nodes.title(text=f"{configuration}, over plausible worlds")
-        section += nodes.paragraph(text=f"The worlds: {', '.join(plausible['worlds'])}.")
+        worlds = ", ".join(plausible["worlds"])
+        section += nodes.paragraph(
+            text=f"A claim holds if all its tests point its way, p < .05 before correction. The "
+            f"worlds: {worlds}."
+        )
         rows = []
         for claim in plausible["claims"]:
             elsewhere = (f"{word}: {', '.join(n)}" for word, n in claim["elsewhere"].items())
             holds = f"{claim['holds']} of {claim['worlds']}"
             rows.append([claim["id"], holds, "; ".join(elsewhere)])
-        section += table_of(("claim", "reproduced in", "elsewhere"), rows)
+        section += table_of(("claim", "holds in", "elsewhere"), rows)
         return section
 
 

@@ -73,6 +73,10 @@ WORLD_NAMES = {
     "hockey",
     "puck",
     "mallet",
+    "vocal",
+    "vocalisation",
+    "tract",
+    "vowel",
 }
 
 ORDINARY_WORDS = {("outcome", "place")}

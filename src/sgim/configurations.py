@@ -80,6 +80,8 @@ class Configuration(MixtureSettings):
         label_window: δ of eq. 2.2, even: how many of the latest competences of a label and mode
             count; where goals are labels, as for those that follow.
         label_uniform: p₁ of algorithm 2.2.3: how often any label and mode is chosen.
+        label_tested: Whether a picture shows competence for its label ``after`` it was learned or
+            ``before``.
         label_pick: Whether labels and modes are drawn in proportion to their interest, or the most
             interesting is taken.
     """
@@ -113,6 +115,7 @@ class Configuration(MixtureSettings):
     request_least: float = 0.1
     label_window: int = 8
     label_uniform: float = 0.3
+    label_tested: Literal["after", "before"] = "after"
     label_pick: Literal["proportional", "argmax"] = "proportional"
     answering: Literal["nearest", "reliable", "kernel", "local"] = "nearest"
 

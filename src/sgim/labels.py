@@ -111,7 +111,8 @@ def _learner(
         "configuration": config.describe(),
         "seed": seed,
     }
-    return Learner(task, strategy, RecognitionModel(view, kind), seed=seed, recipe=recipe)
+    model = RecognitionModel(view, kind, tested=config.label_tested)
+    return Learner(task, strategy, model, seed=seed, recipe=recipe)
 
 
 def _only_labels(task: Task) -> tuple[str, Choices]:

@@ -64,14 +64,8 @@ class Learner(Transitions, Answers):
         if self.recipe is not None:
             return {"recipe": self.recipe}
         modes = {
-            mode.name: [
-                type(mode.explorer).__name__,
-                mode.budget,
-                mode.cost,
-                mode.teacher,
-                mode.pursues,
-            ]
-            for mode in self.strategy.modes.values()
+            m.name: [type(m.explorer).__name__, m.budget, m.cost, m.teacher, m.pursues]
+            for m in self.strategy.modes.values()
         }
         parts = [self.strategy, getattr(self.strategy, "interest", None), self.model]
         names = [type(part).__name__ for part in parts]
@@ -263,7 +257,8 @@ class Learner(Transitions, Answers):
         for plan, running, trial, remembered, time in zip(
             plans, some, trials, known, taken, strict=True
         ):
-            self._emit(Told(plan.id, trial.outcome, time))
+            if self.record is not None:
+                self._emit(Told(plan.id, trial.outcome, time))
             try:
                 reports.append(self.learn_trial(plan, running, trial, remembered))
             except BaseException as error:  # those behind it have happened, too

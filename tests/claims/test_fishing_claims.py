@@ -85,9 +85,9 @@ class MadeUpRun(RecordedRun):
 
     made: Made = field(default_factory=lambda: Made(1.0, 1.0))
 
-    def produced(self, kind: str) -> FloatArray:
+    def produced(self, kind: str, movements: int | None = None) -> FloatArray:
         if kind == "ball":
-            seen = np.arange(100) < 100 * self.made.seen
+            seen = np.arange(5000) < 5000 * self.made.seen
             return np.where(seen[:, None], [[0.5, 0.5]], [[100.5, 0.5]])
         places = np.stack(np.divmod(np.arange(self.made.tiles), 19), axis=1)
         return np.repeat((places + 0.5) / 19 * 2 - 1, 3, axis=0)
@@ -122,7 +122,7 @@ def run(where: str, learner: str, seed: int, made: Made) -> MadeUpRun:
         {"goals": {"float": 355}, "digest": "00"},
         (Evaluated(1000, {"total": early}), Evaluated(5000, {"total": late})),
         task=VIEW if where == FLOOR else ROD,
-        movements=100 if where == FLOOR else 5000,
+        movements=5000,
         openings=Openings(begun, modes, ["float"] * 400),
         troubles={},
         made=made,

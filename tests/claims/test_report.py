@@ -63,5 +63,18 @@ def test_counts_say_in_which_worlds_a_claim_does_not_hold() -> None:
     assert counts["T1"].elsewhere == {}
 
 
+def test_in_counts_six_seeds_are_enough_though_not_after_correction() -> None:
+    few = [replace(HOLDS, seeds=range(6), experiment=name) for name in ("throwing", "throwing-5")]
+    tables = [decide(THROWING, made.world()) for made in few]
+    assert {table.by_id["S1"].word for table in tables} == {"not shown"}
+    (plausible,) = count_worlds(tables)
+    assert {count.claim.id: count.holds for count in plausible.counts}["S1"] == 2
+
+
+def test_worlds_in_which_nothing_is_decided_are_not_counted() -> None:
+    alone = replace(HOLDS, errors={"mimicry:T1": (1, 1)}, experiment="throwing-5")
+    assert count_worlds([decide(THROWING, made.world()) for made in (HOLDS, alone)]) == []
+
+
 def test_one_world_is_not_counted() -> None:
     assert count_worlds([decide(THROWING, HOLDS.world())]) == []

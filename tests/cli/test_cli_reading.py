@@ -81,6 +81,12 @@ def test_answer_as_json_is_what_the_repertoire_says(sgim, finished: Path) -> Non
     assert facts["units"]["policy"][:2] == ["rad/s²", "s"]
 
 
+def test_answer_can_be_asked_in_another_way(sgim, finished: Path) -> None:
+    said = sgim("answer", finished, "--goal", "throw=3,2", "--by", "kernel", "--json")
+    solution = open_repertoire(finished).by("kernel").solve("throw", [3.0, 2.0])
+    assert json.loads(said.out)["policy"] == solution.policy.tolist()
+
+
 @pytest.mark.parametrize(
     ("goal", "hint"),
     [

@@ -1,4 +1,4 @@
-"""What the documentation shows is executed."""
+"""What the documentation shows is executed, and what its tables say is true."""
 
 import os
 import re
@@ -8,16 +8,27 @@ import signal
 import subprocess
 import sys
 import time
+from dataclasses import fields
+from inspect import signature
 from pathlib import Path
-from typing import Any
 
 import pytest
 
 import sgim
+from sgim.algorithms import ALGORITHMS
+from sgim.configurations import CONFIGURATIONS, Configuration
 from sgim.environments import AirHockey
 from sgim.errors import JournalError
 from sgim.events import Answered, Ended, Opened, Told
-from sgim.experiments.sweep_plan import plan, read_sweep_file
+from sgim.mixture_settings import MixtureSettings
+from sgim.outcome.expected_gain import ExpectedGain
+from sgim.outcome.region_tree import RegionTree
+from sgim.policy.answering import KernelMean, Reliable
+from sgim.policy.local_model import LocalModel
+from sgim.policy.local_search import LocalSearch
+from sgim.policy.model import NearestModel
+from sgim.policy.nelder_mead import NelderMeadSearch
+from sgim.policy.simple import NoisyNearest
 from sgim.runs.rows import RecordedPlan
 from sgim.teachers import load_demonstrations
 
@@ -225,25 +236,6 @@ def test_the_lines_of_the_page_on_comparing_compare(tmp_path: Path) -> None:
     assert output("-c", block, cwd=tmp_path).startswith("sgim-acts ")
 
 
-def test_the_file_and_the_lines_of_the_page_on_sweeps_plan_and_run(tmp_path: Path) -> None:
-    page = (ROOT / "docs" / "sweeps.md").read_text("utf-8")
-    (file,) = re.findall(r"```toml\n(.*?)```", page, re.DOTALL)
-    (tmp_path / "mine.toml").write_text(file)
-    assert len(plan(read_sweep_file(tmp_path / "mine.toml").parts)) == 2 * 8 * 20 + 2 * 2 * 6
-    (block,) = python_blocks("docs/sweeps.md")
-    lines = output("-c", block, cwd=tmp_path).splitlines()
-    assert [line.split()[:3] for line in lines] == [
-        [learner, seed, "finished"] for learner in ("random", "mimicry:T2") for seed in "01"
-    ]
-
-
-def test_the_chapter_on_the_page_on_reproducing_is_one() -> None:
-    names: dict[str, Any] = {}
-    (block,) = python_blocks("docs/reproducing.md")
-    exec(block, names)
-    assert len(plan(names["MINE"].to_run(None, quick=False, worlds=False)[0])) == 40
-
-
 def test_the_lines_of_the_page_on_configurations_run(tmp_path: Path) -> None:
     (block,) = python_blocks("docs/configurations.md")
     output("-c", block, cwd=tmp_path)
@@ -285,3 +277,61 @@ def test_the_lines_of_the_page_on_air_hockey_print_and_draw_what_it_shows(tmp_pa
     assert output("-c", shares, cwd=tmp_path) in page
     output("-c", figure, cwd=tmp_path)
     assert (tmp_path / "hockey.png").read_bytes().startswith(b"\x89PNG")
+
+
+# What tables say.
+
+
+def table(page: str, first_cell: str) -> dict[str, list[str]]:
+    """The rows of the page's table whose head begins with this cell, by their first cell."""
+    text = (ROOT / page).read_text("utf-8")
+    lines = iter(text[text.index(f"\n| {first_cell} |") + 1 :].splitlines()[2:])
+    rows = {}
+    for line in lines:
+        if not line.startswith("|"):
+            break
+        cells = [cell.strip() for cell in line.strip("|").split("|")]
+        rows[cells[0].strip("`")] = [cell.strip("`") for cell in cells[1:]]
+    return rows
+
+
+@pytest.mark.parametrize("name", list(CONFIGURATIONS))
+def test_the_page_of_configurations_has_every_constant_as_it_is(name: str) -> None:
+    of_mixtures = [field.name for field in fields(MixtureSettings)]
+    apart = {"name", *of_mixtures}
+    others = [field.name for field in fields(Configuration) if field.name not in apart]
+    column = list(CONFIGURATIONS).index(name)
+    for first_cell, names in (("constant", others), ("constant of mixtures", of_mixtures)):
+        rows = table("docs/configurations.md", first_cell)
+        assert list(rows) == names
+        shown = {constant: cells[column] for constant, cells in rows.items()}
+        assert shown == {
+            constant: str(getattr(CONFIGURATIONS[name], constant)) for constant in names
+        }
+
+
+PARTS = (
+    NearestModel,
+    Reliable,
+    KernelMean,
+    LocalModel,
+    NelderMeadSearch,
+    LocalSearch,
+    NoisyNearest,
+    RegionTree,
+    ExpectedGain,
+)
+
+
+def test_the_page_of_configurations_has_the_constants_of_the_parts() -> None:
+    parts = {part.__name__: part for part in PARTS}
+    for name, (shown,) in table("docs/configurations.md", "parameter").items():
+        part, constant = name.split(".")
+        default = signature(parts[part]).parameters.get(constant)
+        value = getattr(parts[part], constant) if default is None else default.default
+        assert shown == str(value), name
+
+
+@pytest.mark.parametrize("page", ["README.md", "docs/algorithms.md"])
+def test_tables_of_algorithms_have_every_algorithm(page: str) -> None:
+    assert list(table(page, "name")) == list(ALGORITHMS)

@@ -76,6 +76,9 @@ def test_what_a_run_was_shown_and_aimed_at_is_read_from_its_journal(asking: Path
     assert goals.shape == (len(rows), 1)
     when, points = outcomes_of(asking, task)["hit"]
     assert len(when) == len(points) == len(run.produced("hit"))
+    early = run.produced("hit", 100)
+    np.testing.assert_array_equal(early, run.produced("hit")[: len(early)])
+    assert len(early) == sum(number < 100 for number in when)
     gained = progress_of(asking, task)
     assert set(gained) == {"autonomous", "imitate expert"}
     ends = np.concatenate([ended for ended, _ in gained.values()])

@@ -61,6 +61,18 @@ def test_competence_is_shown_by_the_latest_picture_once_it_has_been_learned() ->
     assert model.competence(bus, None) == model.shown(latest, "bus")
 
 
+def test_competence_can_be_tested_before_a_picture_is_learned() -> None:
+    model = RecognitionModel("view", "toy", tested="before")
+    model.update(trial("bus", (YELLOW,)))
+    model.update(trial("flag", (RED, GREEN)))
+    unseen = trial("flag", (YELLOW,), 1)
+    before = model.recogniser.recognise(Eye().look(picture((YELLOW,), 1)))
+    assert before.label == "bus"
+    expected = model.shown(before, "flag")
+    model.update(unseen)
+    assert model.competence(Goal("toy", "flag"), None) == expected
+
+
 def test_a_trial_without_a_view_or_a_label_teaches_nothing() -> None:
     model = RecognitionModel("view", "toy")
     whole = trial("flag", (RED,))

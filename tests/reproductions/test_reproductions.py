@@ -114,7 +114,15 @@ def test_a_declaration_runs_what_its_claims_and_figures_need(it: Reproduction) -
     assert it.chapters
     for chapter in it.chapters:
         assert chapter is CHAPTERS[chapter.name]
-        assert {*chapter.learners} <= learners
+        for (world, settings), needed in chapter.sweeps.items():
+            made = {
+                run.learner
+                for run in runs
+                if run.path("").name.startswith(f"{world}-{run.learner.replace(':', '-')}-")
+                and run.configuration in ("modern", f"modern,{settings}")
+                and bool(settings) == ("," in run.configuration)
+            }
+            assert {*needed} <= made, (world, settings)
     for drawing in it.drawings:
         assert {*drawing.learners} <= learners
     names = [drawing.name for drawing in it.drawings]

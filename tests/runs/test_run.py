@@ -17,7 +17,7 @@ from sgim.environments.benchmark_goals import throwing_goals
 from sgim.environments.throwing_teachers import throwing_teachers
 from sgim.errors import JournalError, SgimError
 from sgim.records import Demonstration
-from sgim.runs import Benchmark, Interrupted, Journal, Run, RunError, open_repertoire
+from sgim.runs import Benchmark, Interrupted, Journal, Run, RunError
 from sgim.runs.continuation import keep_journal
 
 TASK = ThrowingArm().task
@@ -215,31 +215,6 @@ def test_a_simulated_world_is_given_the_same_plan_again(tmp_path: Path) -> None:
         (pending,) = again.pending
         assert pending.id == plan.id
         assert (pending.policy == plan.policy).all()
-
-
-def test_a_repertoire_answers_as_the_run_did_and_can_be_opened_while_it_goes_on(
-    tmp_path: Path,
-) -> None:
-    path = tmp_path / "a.sgim"
-    with Run(learner(), ThrowingArm(), journal=path) as run:
-        run.go(200)
-        repertoire = open_repertoire(path)
-        policy = run.learner.best_policy("throw", [4.0, 2.0])
-        assert (repertoire.best_policy("throw", [4.0, 2.0]) == policy).all()
-        run.go(210)
-    solution = open_repertoire(path).solve("throw", [4.0, 2.0])
-    assert solution.cost < 0.5
-
-
-def test_a_journal_without_a_recipe_needs_its_learner(tmp_path: Path) -> None:
-    path = tmp_path / "a.sgim"
-    made = learner()
-    made.recipe = None
-    with Run(made, ThrowingArm(), journal=path) as run:
-        run.go(20)
-    with pytest.raises(JournalError, match=r"with sgim.open\(path, learner=…\)"):
-        open_repertoire(path)
-    assert len(open_repertoire(path, learner=learner()).model.memory) == 20  # type: ignore[attr-defined]
 
 
 def test_evaluations_come_at_their_interval_and_at_the_end() -> None:

@@ -31,6 +31,7 @@ from sgim.policy.model import NearestModel
 from sgim.policy.nelder_mead import NelderMeadSearch
 from sgim.policy.population import CovarianceAdaptation, PathIntegral, PopulationSearch
 from sgim.policy.simple import Mimicry, NoisyNearest, RandomPolicies
+from sgim.policy.ways import ANSWERING, answering_of
 from sgim.spaces import Box, Choices, Space
 from sgim.streams import Streams
 from sgim.task import Task
@@ -183,8 +184,9 @@ def test_an_interest_table_passes() -> None:
 
 
 @NAMED
-def test_the_nearest_model_passes(task: Task) -> None:
-    check_model(lambda: NearestModel(Memory(task)), task)
+@pytest.mark.parametrize("way", ANSWERING)
+def test_the_nearest_model_passes_with_every_way_of_answering(task: Task, way: str) -> None:
+    check_model(lambda: NearestModel(Memory(task), answering_of(way)), task)
 
 
 @pytest.mark.parametrize("task", VECTOR_TASKS.values(), ids=VECTOR_TASKS.keys())

@@ -11,6 +11,7 @@ import pytest
 
 import sgim
 from sgim.environments import AirHockey
+from sgim.experiments import experiment
 from sgim.runs.journal_file import connect
 from sgim.teachers import RemoteTeacher, load_demonstrations
 from sgim.web import serve
@@ -267,6 +268,29 @@ def test_what_is_said_is_said_to_screen_readers_too(hand: Hand) -> None:
                 || e.closest("[aria-label]"))).map(e => e.outerHTML)"""
     )
     assert unnamed == []
+
+
+def test_a_click_on_the_map_replays_the_best_movement_that_is_known(
+    browser: Any, tmp_path: Path
+) -> None:
+    path = tmp_path / "run.sgim"
+    with experiment("throwing").start("sgim-acts", path, seed=1, evaluate_every=250) as run:
+        run.go(1500)
+    with serve(path, port=0) as served:
+        context = browser.new_context(viewport=VIEWPORT)
+        page = context.new_page()
+        page.goto(served.url)
+        hand = Hand(page)
+        hand.wait_text("#title", "finished")
+        hand.wait_text("#strip-legend", "mimic T1")
+        hand.wait_text("#modes", "autonomous")
+        page.click("#kinds button >> text=throw")
+        box = page.locator("#map").bounding_box()
+        page.mouse.click(box["x"] + 0.72 * box["width"], box["y"] + 0.4 * box["height"])
+        hand.wait_text("#recalled", "Best known: throw")
+        hand.wait("Number(document.getElementById('seek').value) > 300")
+        hand.picture("watch")
+        context.close()
 
 
 @pytest.mark.parametrize("size", [(390, 780), (1360, 850)])

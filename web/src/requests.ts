@@ -119,7 +119,9 @@ export class Requests {
     const facts = make(
       "dl",
       { class: "facts" },
-      ...fact("misses it now by", asked.error === null ? "never tried" : percent(asked.error)),
+      ...(asked.goal
+        ? fact("misses it now by", asked.error === null ? "all: never tried" : percent(asked.error))
+        : []),
       ...(asked.gain !== null
         ? fact(
             "expected gain",

@@ -245,6 +245,7 @@ export class Teaching {
       words,
     );
     this.clear();
+    this.home();
     announce(`Given to the learner: ${words}.`);
   }
 

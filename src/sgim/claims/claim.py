@@ -123,6 +123,13 @@ class Verdict:
         return "reproduced" if self.p_holm < LEVEL else "not shown"
 
     @property
+    def word_alone(self) -> Word:
+        """The verdict if this were the only claim: by its p-value before correction."""
+        if self.p is None or self.word == "contradicted":
+            return self.word
+        return "reproduced" if self.p < LEVEL else "not shown"
+
+    @property
     def deciding(self) -> Finding:
         """The component that decides: the one most clearly against it, else the least clear."""
         against = [f for f in self.findings if f.direction < 0]

@@ -44,10 +44,11 @@ class Tiles:
         return f"{self.kind} tiles reached {self.often} times or more"
 
     def of(self, run: MeasuredRun, movements: int) -> float:
-        """Among all outcomes of the run."""
+        """Among the outcomes of so many movements."""
         assert isinstance(run, RecordedRun)
         low, high = np.array(self.low), np.array(self.high)
-        shares = (run.produced(self.kind).reshape(-1, len(low)) - low) / (high - low)
+        outcomes = run.produced(self.kind, movements).reshape(-1, len(low))
+        shares = (outcomes - low) / (high - low)
         inside = shares[((shares >= 0) & (shares < 1)).all(axis=1)]
         _, counts = np.unique((inside * self.along).astype(int), axis=0, return_counts=True)
         return float((counts >= self.often).sum())
@@ -74,10 +75,10 @@ class Produced:
         return f"share of movements with a {self.kind} in its box"
 
     def of(self, run: MeasuredRun, movements: int) -> float:
-        """Among all movements of the run."""
+        """Among so many movements."""
         assert isinstance(run, RecordedRun)
         space = run.task.outcome_spaces[self.kind]
-        return sum(map(space.contains, run.produced(self.kind))) / max(1, run.movements)
+        return sum(map(space.contains, run.produced(self.kind, movements))) / movements
 
 
 @dataclass(frozen=True)
@@ -107,12 +108,13 @@ class GoalsWithin:
         return f"share of {self.counted} goals within {self.where}"
 
     def of(self, run: MeasuredRun, movements: int) -> float:
-        """Among all goals of these episodes; NaN if there was none."""
+        """Among the goals of those begun in so many movements; NaN if there was none."""
         from scipy.spatial import Delaunay
 
         assert isinstance(run, RecordedRun)
         rows, goals = run.aimed_at(self.kind)
-        meant = self.counted.among(run.openings)[rows]
+        begun = run.openings.movements < movements
+        meant = (begun & self.counted.among(run.openings))[rows]
         if not meant.any():
             return float("nan")
         return float((Delaunay(np.array(self.points)).find_simplex(goals[meant]) >= 0).mean())

@@ -15,7 +15,8 @@ class Count:
 
     Attributes:
         claim: The claim.
-        words: Name of each world that has the runs it needs → the verdict there.
+        words: Name of each world that has the runs it needs → the verdict there, by p-values that
+            are not corrected for the other claims: a world by itself has few seeds.
     """
 
     claim: Claim
@@ -23,7 +24,7 @@ class Count:
 
     @property
     def holds(self) -> int:
-        """In how many it is reproduced."""
+        """In how many it holds."""
         return sum(word == "reproduced" for word in self.words.values())
 
     @property
@@ -86,7 +87,8 @@ def _count(members: Sequence[Verdicts]) -> Plausible:
     counts = []
     for i, claim in enumerate(members[0].chapter.claims):
         words = {
-            name: verdicts.verdicts[i].word for name, verdicts in zip(names, members, strict=True)
+            name: verdicts.verdicts[i].word_alone
+            for name, verdicts in zip(names, members, strict=True)
         }
         counts.append(Count(claim, {name: w for name, w in words.items() if w != "no runs"}))
     return Plausible(members[0].chapter, members[0].world.base, tuple(names), tuple(counts))

@@ -116,3 +116,4 @@ def _print_plausible(plausible: Plausible, stream: TextIO) -> None:
         holds = f"{count.holds} of {len(count.words)}" if count.words else "no runs"
         rows.append([count.claim.id, holds, elsewhere])
     print_table(rows, stream, words=("elsewhere",))
+    print("\n(holds: all its tests point its way, p < .05 before correction)", file=stream)

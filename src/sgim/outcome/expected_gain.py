@@ -124,7 +124,9 @@ class ExpectedGain(Partition):
         kind = self._kinds.index(region.kind)
         self._table.enter(row, kind, region.low[:d], region.high[:d])
         self._table.expect(row, self._priors[region.kind])
-        self._attempted[row:] = [[[] for _ in self.modes], *self._attempted[row + 1 :]]
+        if row == len(self._attempted):
+            self._attempted.append([])
+        self._attempted[row] = [[] for _ in self.modes]
 
     def gains(self) -> FloatArray:
         """The gain expected of a movement in every leaf by every mode, ``(leaves, modes)``."""

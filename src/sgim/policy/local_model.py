@@ -8,14 +8,10 @@ import numpy as np
 
 from sgim.memory.memory import IntArray, KindMemory
 from sgim.policy.answering import Answer, KernelMean, Nearest
-from sgim.policy.smoothness import Smoothness, fitted, squared_distances
+from sgim.policy.smoothness import Smoothness, learned
 from sgim.spaces import Box, FloatArray
 
-_SAMPLES = 12  # Neighbourhoods that the constants are fitted to,
-_SAMPLED = 48  # and of how many trials at most.
-_FIRST, _GROWTH = 16, 1.5  # They are fitted again whenever there are so many times more trials.
-_LEAST_NOISE = 1e-6  # Over the signal: what rounding needs.
-_MEAN = 10.0  # Variance of a neighbourhood's mean over that of the signal.
+_FIRST, _GROWTH = 16, 2  # The map is learned again whenever there are so many times more trials.
 _SHARES = (0.25, 0.5, 1.0)  # Of a step, to choose among.
 
 
@@ -30,8 +26,8 @@ class LocalModel:
     are expected to come nearer in the mean square. How far the model can be trusted is measured by
     leaving out each of those trials in turn.
 
-    Where most neighbourhoods show no noise, or policies or outcomes are not vectors, it answers
-    as `Nearest` does; where there is so much noise that no map shows, as `KernelMean` does.
+    Where there is decidedly no noise, or policies or outcomes are not vectors, it answers as
+    `Nearest` does; where there decidedly is and no map shows, as `KernelMean` does.
 
     Args:
         near_outcomes: How many of the nearest outcomes to choose among.
@@ -52,31 +48,30 @@ class LocalModel:
         self.near_policies = near_policies
         self.among = among
         self.steps = steps
-        self._fits: dict[KindMemory, tuple[int, Smoothness | None]] = {}
+        self._learned: dict[KindMemory, tuple[int, Smoothness | None]] = {}
 
     def answers(self, memory: KindMemory, keys: FloatArray) -> list[Answer]:
         """The policy expected to come nearest to each goal."""
         smoothness = self.smoothness(memory)
-        if smoothness is None or not smoothness.noisy:
-            return Nearest().answers(memory, keys)
-        if not smoothness.resolved:
-            return KernelMean().answers(memory, keys)
-        return [self._answer(memory, key, smoothness) for key in keys]
+        if smoothness is not None and smoothness.mapped and not smoothness.noiseless:
+            return [self._answer(memory, key, smoothness) for key in keys]
+        noisy = smoothness is not None and smoothness.noisy
+        return (KernelMean() if noisy else Nearest()).answers(memory, keys)
 
     def smoothness(self, memory: KindMemory) -> Smoothness | None:
         """What is known of the map from policies to outcomes; None if that is not enough.
 
-        It is fitted to the first trials, so many that the number depends on how many there are and
-        not on when this was asked.
+        It is learned from the first trials, so many that the number depends on how many there are
+        and not on when this was asked.
         """
-        if len(memory) < _FIRST or not (
-            isinstance(memory.policy_space, Box) and isinstance(memory.space, Box)
-        ):
+        boxes = isinstance(memory.policy_space, Box) and isinstance(memory.space, Box)
+        if len(memory) < _FIRST or not boxes:
             return None
-        count = int(_FIRST * _GROWTH ** int(math.log(len(memory) / _FIRST, _GROWTH)))
-        known = self._fits.get(memory)
+        count = _FIRST * _GROWTH ** int(math.log(len(memory) / _FIRST, _GROWTH))
+        known = self._learned.get(memory)
         if known is None or known[0] != count:
-            known = self._fits[memory] = count, _fit(memory, count)
+            outcomes, inputs = _taken(memory, slice(0, count))
+            known = self._learned[memory] = count, learned(inputs, outcomes)
         return known[1]
 
     def _answer(self, memory: KindMemory, key: FloatArray, smoothness: Smoothness) -> Answer:
@@ -103,7 +98,7 @@ class _Around:
     """What is expected near some policies, given the trials with the nearest policies to each.
 
     Args:
-        inputs: Policies and contexts of trials, shape ``(t, n)``.
+        inputs: Policies, followed by contexts, of trials; shape ``(t, n)``.
         outcomes: Their outcomes, shape ``(t, d)``.
         centres: Policies to look around, in the present context, shape ``(m, n)``.
         smoothness: Of the map from inputs to outcomes.
@@ -119,33 +114,32 @@ class _Around:
         near: int,
     ) -> None:
         self.centres, self.smoothness = centres, smoothness
-        norms = np.einsum("ij,ij->i", inputs, inputs)
-        apart = norms - 2 * (centres @ inputs.T)  # but for a constant for each centre
-        near = min(near, len(inputs))
+        points, middles = inputs @ smoothness.metric, centres @ smoothness.metric
+        norms = np.einsum("ij,ij->i", points, points)
+        apart = norms - 2 * (middles @ points.T)  # but for a constant for each centre
+        near = min(near, len(points))
         chosen = np.argpartition(apart, near - 1, axis=1)[:, :near]
-        self.offsets = inputs[chosen] - centres[:, None]
+        self.points = points[chosen] - middles[:, None]
         self.means = outcomes[chosen].mean(axis=1)
-        covariances = smoothness.covariance(squared_distances(self.offsets)) + _MEAN
-        diagonal = np.arange(near)
-        covariances[:, diagonal, diagonal] += max(smoothness.noise, _LEAST_NOISE)
-        self.inverses = np.linalg.inv(covariances)
-        self.weights = self.inverses @ (outcomes[chosen] - self.means[:, None])
-        precisions = self.inverses[:, diagonal, diagonal][:, :, None]
+        centred = outcomes[chosen] - self.means[:, None]
+        self.inverses = smoothness.inverses(self.points)
+        self.weights = self.inverses @ centred
+        precisions = np.diagonal(self.inverses, axis1=1, axis2=2)[:, :, None]
         missed = ((self.weights / precisions) ** 2).sum(axis=(1, 2))
         foreseen = (smoothness.variance / precisions).sum(axis=(1, 2))
         # Where the model is surer than it should be, that is made up for.
         self.variances = np.maximum(missed / foreseen, 1.0) * smoothness.variance.sum()
         # How much of the differences between outcomes it does not foresee, over how much it does.
-        differences = ((outcomes[chosen] - self.means[:, None]) ** 2).sum(axis=(1, 2))
+        differences = (centred**2).sum(axis=(1, 2))
         self.doubts = missed / np.maximum(differences - missed, 1e-300)
 
     def best(self, goal: FloatArray) -> tuple[int, FloatArray, float]:
         """The centre expected to come nearest, its expected outcome and mean squared distance."""
-        squares = np.einsum("bij,bij->bi", self.offsets, self.offsets)
-        covariances = self.smoothness.covariance(squares) + _MEAN
+        squares = np.einsum("bij,bij->bi", self.points, self.points)
+        covariances = self.smoothness.covariance(squares)
         expected = self.means + (covariances[:, None] @ self.weights)[:, 0]
         known = (covariances[:, None] @ self.inverses @ covariances[:, :, None])[:, 0, 0]
-        uncertain = np.maximum(1.0 + _MEAN - known, 0.0) * self.variances
+        uncertain = np.maximum(self.smoothness.alone - known, 0.0) * self.variances
         misses = ((expected - goal) ** 2).sum(axis=1) + uncertain
         best = int(np.argmin(misses))
         return best, expected[best], float(misses[best])
@@ -165,37 +159,36 @@ class _Around:
             The new offset, its expected outcome and the mean squared distance; None if nothing
             is known of the way.
         """
-        offsets, weights = self.offsets[centre], self.weights[centre]
-        policies, length = offsets[:, : len(offset)], self.smoothness.length
-        covariance = self.smoothness.covariance(self._squares(centre, offset))
-        slopes = ((policies - offset) * covariance[:, None] / length**2).T @ weights
-        gram = slopes.T @ slopes
-        damping = 1e-6 * np.trace(gram)
+        points, weights = self.points[centre], self.weights[centre]
+        metric = self.smoothness.metric[: len(offset)]
+        here = offset @ metric
+        apart = points - here
+        correlation = self.smoothness.correlation(np.einsum("ij,ij->i", apart, apart))
+        slopes = metric @ (apart.T @ (weights * correlation[:, None]))
+        slopes /= self.smoothness.length**2
+        # The least step by the metric.
+        least = np.linalg.solve(metric @ metric.T, slopes)
+        gram = slopes.T @ least
+        damping = 1e-6 * float(np.trace(gram))
         if not damping > 0:
             return None
-        way = slopes @ np.linalg.solve(gram + damping * np.eye(len(gram)), goal - expected)
+        way = least @ np.linalg.solve(gram + damping * np.eye(len(gram)), goal - expected)
         start = self.centres[centre, : len(offset)]
-        reach = float(np.sqrt(np.einsum("ij,ij->i", policies, policies).max()))
+        reach = float(np.sqrt(np.einsum("ij,ij->i", points, points).max()))
         tried = []
         for share in _SHARES:
             further = np.clip(start + offset + share * way, 0.0, 1.0) - start
-            further *= min(1.0, reach / max(float(np.linalg.norm(further)), 1e-300))
-            covariance = self.smoothness.covariance(self._squares(centre, further)) + _MEAN
+            further *= min(1.0, reach / max(float(np.linalg.norm(further @ metric)), 1e-300))
+            apart = points - further @ metric
+            covariance = self.smoothness.covariance(np.einsum("ij,ij->i", apart, apart))
             outcome = self.means[centre] + covariance @ weights
-            unknown = 1.0 + _MEAN - covariance @ self.inverses[centre] @ covariance
+            unknown = self.smoothness.alone - covariance @ self.inverses[centre] @ covariance
             miss = float(((outcome - goal) ** 2).sum())
             miss += max(float(unknown), 0.0) * float(self.variances[centre])
             miss += float(self.doubts[centre]) * float(((outcome - expected) ** 2).sum())
             tried.append((miss, further, outcome))
         miss, further, outcome = min(tried, key=lambda found: found[0])
         return further, outcome, miss
-
-    def _squares(self, centre: int, offset: FloatArray) -> FloatArray:
-        """Squared distances to the trials around a centre from an offset of policies."""
-        apart = self.offsets[centre].copy()
-        apart[:, : len(offset)] -= offset
-        squares: FloatArray = np.einsum("ij,ij->i", apart, apart)
-        return squares
 
 
 def _taken(memory: KindMemory, rows: IntArray | slice) -> tuple[FloatArray, FloatArray]:
@@ -206,15 +199,3 @@ def _taken(memory: KindMemory, rows: IntArray | slice) -> tuple[FloatArray, Floa
     if keys.shape[1] == dimension:
         return keys, policies
     return keys[:, :dimension], np.column_stack((policies, keys[:, dimension:]))
-
-
-def _fit(memory: KindMemory, count: int) -> Smoothness | None:
-    """Fit to neighbourhoods of some of the first trials, spread evenly."""
-    outcomes, inputs = _taken(memory, slice(0, count))
-    neighbourhoods = []
-    norms = np.einsum("ij,ij->i", inputs, inputs)
-    near = min(_SAMPLED, count)
-    for row in range(0, count, -(-count // _SAMPLES)):
-        chosen = np.argpartition(norms - 2 * (inputs @ inputs[row]), near - 1)[:near]
-        neighbourhoods.append((inputs[chosen], outcomes[chosen]))
-    return fitted(neighbourhoods)

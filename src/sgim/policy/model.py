@@ -233,14 +233,6 @@ class NearestModel:
         difference = key - self.goal_key(goal, context)
         return -min(1.0, math.sqrt(difference.dot(difference)))
 
-    def nearest_policy(self, goal: Goal, context: Any) -> Any:
-        """The policy of the nearest remembered outcome."""
-        _, rows = self.nearest(goal, context)
-        if not len(rows):
-            raise NoAnswerError(f"no trial has produced an outcome of kind {goal.kind!r} yet")
-        trials = self.memory.kinds[goal.kind].trials
-        return self.memory.policies[int(trials.rows[rows[0]])]
-
     def best_policy(self, goal: Goal, context: Any) -> Any:
         """The policy that the way of answering chooses."""
         return self._policy(goal.kind, self._answer(goal, context))

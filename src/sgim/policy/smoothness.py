@@ -1,25 +1,37 @@
-"""How smooth a map from policies to outcomes is, and how noisy: fitted to what is remembered.
+"""How smooth a map from policies to outcomes is, and how noisy: learned from what is remembered.
 
-The model is a Gaussian process (Rasmussen and Williams, "Gaussian Processes for Machine Learning",
-MIT Press, 2006) with a squared-exponential covariance of one length, a mean that is constant in
-each neighbourhood, and noise. Its constants make the outcomes of a few neighbourhoods likely.
+The model is a Gaussian process (C. E. Rasmussen and C. K. I. Williams, "Gaussian Processes for
+Machine Learning", MIT Press, 2006) with a squared-exponential covariance, a constant mean in each
+neighbourhood, and noise. Its constants make the outcomes of a few neighbourhoods likely, as if
+those were independent (A. V. Vecchia, "Estimation and model identification for continuous spatial
+processes", Journal of the Royal Statistical Society B 50(2), 1988).
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from sgim.spaces import FloatArray
 
-_LENGTHS = 2.0 ** np.arange(-4.0, 5.0)  # Over the median distance between policies.
-_NOISES = np.array([0.0, 1e-6, 1e-5, 1e-4, 3e-4, 1e-3, 3e-3, 1e-2, 3e-2, 0.1])
-_NOISELESS = 3  # The first of them are as good as none.
-_ROUNDING = 1e-8
-_TINY = 1e-300
+Neighbourhood = tuple[FloatArray, FloatArray]
+"""Policies, shape ``(k, n)``, and outcomes, shape ``(k, d)``."""
+
+_LENGTHS = 2.0 ** np.arange(-3.0, 4.0)  # Over the median distance between policies.
+_NOISES = np.array([0.0, 1e-6, 1e-5, 1e-4, 3e-4, 1e-3, 3e-3, 1e-2, 3e-2, 0.1, 0.3])
+_AS_GOOD_AS_NONE = 3  # The first of them;
+_SOME = 5  # and those from here on are noise.
+_ROUNDS = 2  # Of learning the metric.
+_ALIKE = 0.5  # The share of the metric in which all directions count alike.
 _DECISIVE = 2.0  # Of a difference of logarithms of likelihoods.
+_ENOUGH = 256  # Trials: with fewer, a few jumps of outcomes may look like noise,
+_MAPPED = (0.8, 0.6)  # and more of the differences must be explained for a map to be used.
+_DROWNED = 0.2  # Noise over the signal that hides the map.
+_LEAST_NOISE = 1e-6  # Over the signal: what rounding needs.
+_MEAN = 10.0  # Variance of a neighbourhood's mean over that of the signal.
+_TINY = 1e-300
 
 
 @dataclass(frozen=True)
@@ -27,80 +39,151 @@ class Smoothness:
     """The constants of a Gaussian process over policies.
 
     Attributes:
-        length: Distance between policies over which outcomes change, in the unit box.
+        metric: What policies are multiplied by before distances are taken, shape ``(n, n)``.
+        length: Distance, by the metric, over which outcomes change.
         noise: Variance of the noise over that of the signal.
-        variance: Variance of the signal, in the unit box, for each coordinate; shape ``(d,)``.
-        noisy: Whether most neighbourhoods are explained better with noise than without.
-        resolved: Whether a map shows: the noise is less than the most that was considered.
+        variance: Variance of the signal for each coordinate, shape ``(d,)``.
+        evidence: How much likelier, as a logarithm, noise is than none, in the median
+            neighbourhood.
+        explained: Share of the differences between a neighbourhood's outcomes that is foreseen
+            when each is left out, noise not counted where it is known; the median neighbourhood's.
+        enough: Whether it was learned from trials enough to know noise.
     """
 
+    metric: FloatArray
     length: float
     noise: float
     variance: FloatArray
-    noisy: bool
-    resolved: bool
+    evidence: float
+    explained: float
+    enough: bool
 
-    def covariance(self, squares: FloatArray) -> FloatArray:
-        """The signal's correlation over squared distances between policies."""
+    @property
+    def noisy(self) -> bool:
+        """Whether there is decidedly noise."""
+        return self.enough and self.evidence > _DECISIVE
+
+    @property
+    def noiseless(self) -> bool:
+        """Whether there is decidedly none."""
+        return self.evidence < -_DECISIVE
+
+    @property
+    def mapped(self) -> bool:
+        """Whether it foresees enough for its map to be used."""
+        return self.explained > _MAPPED[self.enough] and self.noise < _DROWNED
+
+    def correlation(self, squares: FloatArray) -> FloatArray:
+        """Of the signal, over squared distances by the metric."""
         correlation: FloatArray = np.exp(squares * (-0.5 / self.length**2))
         return correlation
 
+    def covariance(self, squares: FloatArray) -> FloatArray:
+        """Of the signal and the mean, over the signal's variance."""
+        return self.correlation(squares) + _MEAN
+
+    @property
+    def alone(self) -> float:
+        """The covariance of a policy with itself."""
+        return 1.0 + _MEAN
+
+    def inverses(self, points: FloatArray) -> FloatArray:
+        """Inverse covariances of outcomes at some points by the metric, shape ``(..., k, n)``."""
+        covariances = self.covariance(squared_distances(points))
+        diagonal = np.arange(points.shape[-2])
+        covariances[..., diagonal, diagonal] += max(self.noise, _LEAST_NOISE)
+        return np.asarray(np.linalg.inv(covariances), dtype=np.float64)
+
 
 def squared_distances(points: FloatArray) -> FloatArray:
-    """Squared distances among points, shape ``(..., n, dimension)``, as ``(..., n, n)``."""
+    """Squared distances among points, shape ``(..., k, n)``, as ``(..., k, k)``."""
     products = points @ np.swapaxes(points, -1, -2)
     norms = np.diagonal(products, axis1=-2, axis2=-1)
     squares: FloatArray = norms[..., :, None] + norms[..., None, :] - 2 * products
     return np.maximum(squares, 0.0)
 
 
-def fitted(neighbourhoods: Sequence[tuple[FloatArray, FloatArray]]) -> Smoothness | None:
-    """The constants under which the outcomes of some neighbourhoods are likeliest.
+def learned(
+    policies: FloatArray, outcomes: FloatArray, *, samples: int = 12, near: int = 48
+) -> Smoothness | None:
+    """Learn how smooth the map is that some trials show.
 
-    The likelihoods multiply as if neighbourhoods were independent (Vecchia 1988); length and
-    noise are the best on a grid. Whether there is noise is put to the vote, each neighbourhood
-    being fitted alone: where outcomes jump, the few that straddle a jump would decide otherwise.
+    In the end the metric counts a direction half for itself, half by how much outcomes change
+    along it: the mean outer product of the map's gradients (A. Radhakrishnan et al., "Mechanism for
+    feature learning in neural networks and backpropagation-free machine learning models", Science
+    383, 2024). That is not done where there is decidedly no noise.
 
     Args:
-        neighbourhoods: Policies, shape ``(n, dimension)``, and outcomes, shape ``(n, d)``, in
-            the unit box.
+        policies: In the unit box, shape ``(m, n)``; contexts may follow in the same rows.
+        outcomes: In the unit box, shape ``(m, d)``.
+        samples: How many neighbourhoods to look at, spread evenly over the trials.
+        near: How many trials are in each.
 
     Returns:
-        The constants; None if there is nothing to fit them to.
+        What was learned; None if there is nothing to learn it from.
     """
-    parts = [
-        (squared_distances(policies), outcomes - outcomes.mean(axis=0))
-        for policies, outcomes in neighbourhoods
-    ]
-    parts = [(squares, outcomes) for squares, outcomes in parts if squares.any()]
-    if not parts:
-        return None
+    metric = np.eye(policies.shape[1])
+    explained = 1.0
+    for turn in range(_ROUNDS + 1):
+        found, fit = _fit(policies @ metric, outcomes, metric, samples, near)
+        if fit is None or fit.noiseless:
+            return fit
+        if not fit.enough:  # A metric learned from few explains just those.
+            explained = min(explained, fit.explained)
+            fit = replace(fit, explained=explained)
+        if turn < _ROUNDS:
+            metric = _sharpened(found, fit)
+    return fit
+
+
+def _fit(
+    points: FloatArray, outcomes: FloatArray, metric: FloatArray, samples: int, near: int
+) -> tuple[list[Neighbourhood], Smoothness | None]:
+    """Sample neighbourhoods by the metric, and fit constants to them."""
+    found = []
+    norms = np.einsum("ij,ij->i", points, points)
+    near = min(near, len(points))
+    for row in range(0, len(points), -(-len(points) // samples)):
+        chosen = np.argpartition(norms - 2 * (points @ points[row]), near - 1)[:near]
+        # The trial that was looked around comes first.
+        chosen = np.append(row, chosen[chosen != row])[:near]
+        if np.ptp(points[chosen], axis=0).any():
+            found.append((points[chosen] - points[row], outcomes[chosen]))
+    return found, _fitted(found, metric, len(points) >= _ENOUGH) if found else None
+
+
+def _fitted(found: Sequence[Neighbourhood], metric: FloatArray, enough: bool) -> Smoothness:
+    parts = [(squared_distances(p), y - y.mean(axis=0)) for p, y in found]
     typical = float(np.sqrt(np.median(np.concatenate([s[s > 0] for s, _ in parts]))))
     lengths = typical * _LENGTHS
-    count = sum(len(outcomes) - 1 for _, outcomes in parts)
+    count = sum(len(y) - 1 for _, y in parts)
     coordinates = parts[0][1].shape[1]
     logs = np.zeros((len(lengths), len(_NOISES)))
-    sums = np.zeros((len(lengths), len(_NOISES), coordinates))
-    alone = np.zeros((len(parts), len(lengths), len(_NOISES), coordinates))
+    sums = np.zeros((*logs.shape, coordinates))
+    alone = np.zeros((len(parts), *sums.shape))
     for i, length in enumerate(lengths):
-        for part, (squares, outcomes) in enumerate(parts):
-            log, total = _profile(np.exp(squares * (-0.5 / length**2)), outcomes)
+        for part, (squares, y) in enumerate(parts):
+            log, total = _profile(np.exp(squares * (-0.5 / length**2)), y)
             logs[i] += log
             sums[i] += total
-            free = len(outcomes) - 1
+            free = len(y) - 1
             alone[part, i] = -0.5 * (log[:, None] + free * np.log(total / free + _TINY))
     together = -0.5 * (coordinates * logs + count * np.log(sums / count + _TINY).sum(axis=2))
     best = np.unravel_index(int(np.argmax(together)), together.shape)
-    best_of_all = alone.max(axis=(1, 2))
-    best_without = alone[:, :, :_NOISELESS].max(axis=(1, 2))
-    gains = (best_of_all - best_without).sum(axis=1)
-    return Smoothness(
+    # Each neighbourhood is heard alone, or the few that straddle a jump would decide for all.
+    noises = alone.max(axis=1)
+    with_noise = noises[:, _SOME:].max(axis=1).sum(axis=1)
+    without = noises[:, :_AS_GOOD_AS_NONE].max(axis=1).sum(axis=1)
+    fit = Smoothness(
+        metric,
         float(lengths[best[0]]),
         float(_NOISES[best[1]]),
         sums[best] / count,
-        bool(np.median(gains) > _DECISIVE),
-        bool(best[1] < len(_NOISES) - 1),
+        float(np.median(with_noise - without)),
+        0.0,
+        enough,
     )
+    return replace(fit, explained=float(np.median([_explained(fit, p, y) for p, y in found])))
 
 
 def _profile(correlation: FloatArray, outcomes: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -111,7 +194,31 @@ def _profile(correlation: FloatArray, outcomes: FloatArray) -> tuple[FloatArray,
     mean = correlation.mean(axis=0)
     centred = correlation - mean - mean[:, None] + mean.mean()
     values, vectors = np.linalg.eigh(centred)
-    values = np.maximum(values[1:], 0.0) + _ROUNDING  # the least belongs to the constant
+    values = np.maximum(values[1:], 0.0) + 1e-8  # the least belongs to the constant
     squares = (vectors[:, 1:].T @ outcomes) ** 2
     spectra = values + _NOISES[:, None]
     return np.log(spectra).sum(axis=1), (1 / spectra) @ squares
+
+
+def _explained(fit: Smoothness, points: FloatArray, outcomes: FloatArray) -> float:
+    inverse = fit.inverses(points)
+    centred = outcomes - outcomes.mean(axis=0)
+    missed = float((((inverse @ centred) / np.diagonal(inverse)[:, None]) ** 2).sum())
+    differences = float((centred**2).sum())
+    noise = len(points) * fit.noise * float(fit.variance.sum()) if fit.noisy else 0.0
+    return 1.0 - max(missed - noise, 0.0) / max(differences - noise, missed - noise, _TINY)
+
+
+def _sharpened(found: Sequence[Neighbourhood], fit: Smoothness) -> FloatArray:
+    """A metric that weighs directions by how much outcomes change along them."""
+    products = np.zeros_like(fit.metric)
+    for points, outcomes in found:
+        weights = fit.inverses(points) @ (outcomes - outcomes.mean(axis=0))
+        correlation = fit.correlation(np.einsum("ij,ij->i", points, points))
+        slopes = fit.metric @ (points.T @ (weights * correlation[:, None]))
+        products += slopes @ slopes.T
+    n = len(products)
+    products *= (1 - _ALIKE) * n / max(float(np.trace(products)), _TINY)
+    values, vectors = np.linalg.eigh(products + _ALIKE * np.eye(n))
+    metric: FloatArray = (vectors * np.sqrt(values)) @ vectors.T
+    return metric

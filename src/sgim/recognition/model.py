@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, Literal
 
 from sgim.recognition.features import Features
 from sgim.recognition.recogniser import Recogniser, Recognition
@@ -15,19 +15,29 @@ LOWEST = -1.0
 class RecognitionModel:
     """Learns labelled views from trials, and says how well labels are recognised.
 
-    The competence for a label is that of section 2.2.1 for the latest picture of it, once that has
-    been learned (algorithm 2.2.1). It is more than −1 by the likelihood with which the picture is
-    recognised, times the number of known views of its object, so that it has no upper bound.
+    The competence for a label is that of section 2.2.1 for the latest picture of it. It is above
+    −1 by the likelihood with which the picture is recognised, times the number of known views of
+    its object, so that it has no upper bound.
 
     Args:
         view: The outcome kind that holds features.
         label: The outcome kind that says what they are of, and goal kind.
         recogniser: What learns; a new one if None.
+        tested: Whether a picture shows competence ``after`` it was learned (algorithm 2.2.1) or
+            ``before`` (section 2.1.1).
     """
 
-    def __init__(self, view: str, label: str, recogniser: Recogniser | None = None) -> None:
+    def __init__(
+        self,
+        view: str,
+        label: str,
+        recogniser: Recogniser | None = None,
+        *,
+        tested: Literal["after", "before"] = "after",
+    ) -> None:
         self.view = view
         self.label = label
+        self.tested = tested
         self.recogniser = recogniser or Recogniser()
         self._latest: dict[str, float] = {}
 
@@ -37,8 +47,12 @@ class RecognitionModel:
             return
         label: str = trial.outcome[self.label]
         features = Features.of(trial.outcome[self.view])
+        known = label in self.recogniser.labels
+        if self.tested == "before" and known:
+            self._latest[label] = self.shown(self.recogniser.recognise(features), label)
         self.recogniser.learn(features, label)
-        self._latest[label] = self.shown(self.recogniser.recognise(features), label)
+        if self.tested == "after" or not known:
+            self._latest[label] = self.shown(self.recogniser.recognise(features), label)
 
     def shown(self, recognition: Recognition, label: str) -> float:
         """The competence γ(b, a) that recognising a picture of an object shows."""

@@ -78,6 +78,8 @@ class Reproduction:
             configuration is a section of the report.
         chapters: The claims.
         drawings: The figures of each section.
+        needed: Runs that claims compare with those of the parts, in variants and with settings
+            that differ; their seeds are the same, and they have no section.
         worlds: Runs in other plausible worlds, for the counts.
         seeds: Of the parts, if nothing else is said.
         world_seeds: Of the worlds.
@@ -91,6 +93,7 @@ class Reproduction:
     parts: tuple[Part, ...]
     chapters: tuple[Chapter, ...]
     drawings: tuple[Drawing, ...]
+    needed: tuple[Part, ...] = ()
     worlds: tuple[Part, ...] = ()
     seeds: tuple[int, ...] = tuple(range(20))
     world_seeds: tuple[int, ...] = tuple(range(6))
@@ -99,7 +102,7 @@ class Reproduction:
     def to_run(
         self, seeds: Sequence[int] | None, *, quick: bool, worlds: bool
     ) -> tuple[list[Part], list[Part]]:
-        """The parts with their seeds, and those in other worlds if they are asked for.
+        """The parts with their seeds, and what is run besides, without a section.
 
         Args:
             seeds: Of the parts; None for those of the declaration.
@@ -107,13 +110,21 @@ class Reproduction:
             worlds: Whether to run in other plausible worlds too.
         """
         if quick:
-            chosen = tuple(seeds or self.quick.seeds)
-            movements = self.quick.movements
-            short = [
-                replace(p, seeds=chosen, movements=movements, configurations=p.configurations[:1])
-                for p in self.parts
-            ]
-            return short, []
-        main = [replace(part, seeds=tuple(seeds or self.seeds)) for part in self.parts]
+            chosen, movements = tuple(seeds or self.quick.seeds), self.quick.movements
+            parts, needed = (
+                [
+                    replace(
+                        p, seeds=chosen, movements=movements, configurations=p.configurations[:1]
+                    )
+                    for p in several
+                ]
+                for several in (self.parts, self.needed)
+            )
+            return parts, needed
+        chosen = tuple(seeds or self.seeds)
+        parts, needed = (
+            [replace(part, seeds=chosen) for part in several]
+            for several in (self.parts, self.needed)
+        )
         others = [replace(part, seeds=self.world_seeds) for part in self.worlds]
-        return main, others if worlds else []
+        return parts, needed + (others if worlds else [])

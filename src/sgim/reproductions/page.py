@@ -36,8 +36,9 @@ def page(result: Result, made: str) -> str:
     parts += [section(found, i) for i, found in enumerate(result.sections, 1)]
     if result.plausible:
         about = (
-            "The thesis leaves constants open. Each claim again where they are set otherwise; "
-            "with few seeds, many a claim cannot be shown after correction."
+            "The thesis leaves constants open. Each claim again where they are set otherwise. It "
+            "holds in a world if all its tests point its way with p < .05, there not corrected for "
+            "the other claims, since a world by itself has few seeds."
         )
         heading = tag("h2", "Plausible worlds", id="worlds")
         tables = [plausible_table(plausible) for plausible in result.plausible]

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from sgim.errors import unknown
-from sgim.reproductions import hockey, objects, throwing, vocal
+from sgim.reproductions import fishing, hockey, objects, throwing, vocal
 from sgim.reproductions.declaration import Reproduction
 
 REPRODUCTIONS = {
     one.name: one
     for one in (
         objects.REPRODUCTION,
+        fishing.REPRODUCTION,
         throwing.REPRODUCTION,
         hockey.REPRODUCTION,
         vocal.REPRODUCTION,

@@ -114,7 +114,7 @@ def conclude(
         reproduction: The declaration.
         swept: How each run ended.
         main: What was run, each experiment and configuration a section.
-        worlds: What was run in other worlds, which only count.
+        worlds: What was run besides, without a section.
         command: The command that made it.
         quick: Whether it is only a first look.
     """

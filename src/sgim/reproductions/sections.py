@@ -81,7 +81,6 @@ def _test_row(f: Finding) -> list[str]:
 
 def plausible_table(plausible: Plausible) -> str:
     """In how many plausible worlds each claim holds, and what it is in each."""
-    base = plausible.configuration
     columns = ["claim", "holds in", *plausible.worlds]
     rows = []
     for count in plausible.counts:
@@ -91,8 +90,11 @@ def plausible_table(plausible: Plausible) -> str:
             tag("span", SIGNS[w], class_=f"mark {w.replace(' ', '-')}", title=w) for w in words
         ]
         rows.append([tag("b", text(count.claim.id)), text(holds), *cells])
-    legend = ", ".join(f"{sign} {word}" for word, sign in SIGNS.items())
-    return table(columns, rows, f"{plausible.chapter.title}, {base}: {legend}", "worlds")
+    title = f"{plausible.chapter.title}, {plausible.configuration}: {SIGNS['reproduced']} holds"
+    others = ", ".join(f"{SIGNS[word]} {word}" for word in SIGNS if word != "reproduced")
+    return tag("p", text(f"{title}, {others}"), class_="note") + table(
+        columns, rows, class_="worlds"
+    )
 
 
 def learner_table(found: Comparison) -> str:

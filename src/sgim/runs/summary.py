@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from bisect import bisect_left
 from collections import Counter
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
@@ -118,10 +119,15 @@ class RecordedRun(MeasuredRun):
         end = self.movements if self.target is None else self.target
         return self.openings.shares(np.linspace(0.0, max(end, 1), QUARTERS + 1))
 
-    def produced(self, kind: str) -> FloatArray:
-        """The outcomes of a kind that is a box, in order, shape ``(n, d)``."""
-        _, points = outcomes_of(self.path, self.task)[kind]
-        return np.array(points, dtype=np.float64).reshape(len(points), -1 if points else 0)
+    def produced(self, kind: str, movements: int | None = None) -> FloatArray:
+        """The outcomes of a kind that is a box, in order: of so many first trials, or of all.
+
+        Returns:
+            Shape ``(n, d)``.
+        """
+        when, points = outcomes_of(self.path, self.task)[kind]
+        kept = points if movements is None else points[: bisect_left(when, movements)]
+        return np.array(kept, dtype=np.float64).reshape(len(kept), -1 if kept else 0)
 
     def aimed_at(self, kind: str) -> tuple[NDArray[np.int64], FloatArray]:
         """Its goals of a kind that is a box; see `sgim.runs.content.goals_of`."""

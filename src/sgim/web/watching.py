@@ -26,8 +26,11 @@ from sgim.spaces import Box
 from sgim.task import Task
 from sgim.web.protocol import GoalMark, Kind, ModeFacts, Outcomes, Region, RunFacts
 
-SLICE = 2000
-"""Rows that are counted at once: the grain of the strip of modes."""
+SLICE = 250
+"""Fewest rows that are counted at once: the grain of the strip of modes."""
+
+SLICES = 30
+"""Most slices at a look, however much has come."""
 
 AT_ONCE = 400_000
 """Rows read at once, so that the page answers meanwhile."""
@@ -94,8 +97,9 @@ class Watched:
                 ((last,),) = db.execute("SELECT coalesce(max(seq), 0) FROM events")
                 end = min(last, self._after + AT_ONCE)
                 begun = self._after
+                grain = max(SLICE, (end - begun) // SLICES)
                 while self._after < end:
-                    upto = min(end, self._after + SLICE)
+                    upto = min(end, self._after + grain)
                     self._count(db, self._after, upto)
                     self._after = upto
                 if has_letters(db):

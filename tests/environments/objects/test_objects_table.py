@@ -113,19 +113,22 @@ def test_a_bar_hides_its_share_of_the_toy() -> None:
 
 
 def test_a_biased_caregiver_always_shows_the_same_side() -> None:
-    def turns(bias: str) -> np.ndarray:
-        caregiver = Caregiver(CLEAR, bias)  # type: ignore[arg-type]
+    def turns(bias: str, side: float = 0.0) -> np.ndarray:
         found = []
         for i in range(8):
             poses: list[np.ndarray] = []
             table = ToyTable(STILL)
             table.seen = lambda toy, pose, rng, poses=poses: poses.append(pose) or {}  # type: ignore
-            Caregiver(table, caregiver.bias).demonstrate(Goal("toy", "cubes"), STREAMS(bias, i))
+            caregiver = Caregiver(table, bias, side)  # type: ignore[arg-type]
+            caregiver.demonstrate(Goal("toy", "cubes"), STREAMS(bias, i))
             found.append(poses[0][3:])
-        return np.abs(np.array(found) @ found[0])
+        return np.array(found)
 
-    assert turns("biased").min() > np.cos(0.3 / 2) - 1e-3
-    assert turns("unbiased").min() < 0.8
+    front, rear = turns("biased"), turns("biased", np.pi)
+    assert np.abs(front @ front[0]).min() > np.cos(0.3 / 2) - 1e-3
+    assert np.abs(rear @ front[0]).max() < 0.2
+    mixed = turns("unbiased")
+    assert np.abs(mixed @ mixed[0]).min() < 0.8
 
 
 def test_caregivers_show_what_is_asked_for_or_anything() -> None:

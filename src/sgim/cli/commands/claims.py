@@ -49,7 +49,8 @@ def command(
     whose learners have no runs says which it needs.
 
     Variants of an experiment, and configurations with settings that differ, are plausible worlds:
-    where there are several, a last table counts in how many each claim is reproduced.
+    where there are several, a last table counts in how many each claim holds: there, p-values are
+    not corrected.
 
     Examples:
       sgim claims throwing

@@ -27,18 +27,20 @@ class Caregiver:
 
     Attributes:
         table: Where.
-        bias: ``unbiased``, or ``biased``: the front, turned by no more than 0.15 rad either way.
+        bias: ``unbiased``, or ``biased``: the same side, within 0.15 rad either way.
+        side: By how much the side that a biased caregiver shows is turned from the front, in rad.
     """
 
     table: ToyTable
     bias: Literal["unbiased", "biased"] = "unbiased"
+    side: float = 0.0
 
     def demonstrate(self, goal: Goal | None, rng: np.random.Generator) -> Demonstration:
         """Put a toy down, and let the learner watch."""
         table = self.table
         toy = table.toys.sample(rng) if goal is None else table.toys.check(goal.point, "toy")
         if self.bias == "biased":
-            pose = table.presented(toy, rng.uniform(-_SWAY, _SWAY))
+            pose = table.presented(toy, self.side + rng.uniform(-_SWAY, _SWAY))
         else:
             pose = table.moved(toy, "watch", rng)
         return Demonstration(table.seen(toy, pose, rng), f"watch {toy}")
