@@ -69,7 +69,7 @@ def _composed(parts: Parts) -> Learner:
         task,
         Streams(parts.seed),
         learning,
-        nearest=parts.model if config.mixture_answers == "nearest" else None,
+        nearest=parts.model if config.mixture_answers == "memory" else None,
         scaled=config.mixture_scaled,
     )
     around = AroundRest(task, config.rest_spread, config.mixture_bounds)

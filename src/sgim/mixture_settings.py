@@ -31,8 +31,8 @@ class MixtureSettings:
         mixture_lifetime: Trials after which it falls no more.
         mixture_starving: Weight below which a component is given half of the heaviest one.
         mixture_bounds: What becomes of policies drawn outside their bounds.
-        mixture_answers: Whether goals are answered with the nearest remembered trial's policy, or
-            with the mixture's.
+        mixture_answers: Whether goals are answered from ``memory``, as other learners do, or
+            with the ``mixture``.
         mixture_scaled: Whether competence is measured with outcomes scaled to [−1, 1]; else in
             their own units.
         rest_trials: Trials around the policy at rest, with which learning begins.
@@ -55,7 +55,7 @@ class MixtureSettings:
     mixture_lifetime: int = 240_000
     mixture_starving: float = 0.0
     mixture_bounds: Literal["clip", "reflect"] = "clip"
-    mixture_answers: Literal["mixture", "nearest"] = "mixture"
+    mixture_answers: Literal["mixture", "memory"] = "mixture"
     mixture_scaled: bool = False
     rest_trials: int = 400
     rest_spread: float = 0.042

@@ -34,5 +34,5 @@ VOCAL = Experiment(
     taught="sgim-acts-gmm",
     default_teacher=NO_TEACHER,
     batch=BATCH,
-    evaluate_every=10 * BATCH,
+    evaluate_every=60 * BATCH,
 )
