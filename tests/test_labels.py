@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from sgim import algorithms
+from sgim import algorithms, labels
 from sgim.environments.objects.table import ACTIONS
 from sgim.errors import SgimError, SpaceError, UnknownNameError
 from sgim.learner import Learner
@@ -161,8 +161,9 @@ def test_an_unknown_label_is_answered_with_the_nearest() -> None:
 
 def test_tasks_that_are_none_of_labels_and_views_are_refused() -> None:
     only_labels = Task(POLICIES, {"toy": TOYS})
-    with pytest.raises(SgimError, match="labels, and views as outcomes; this one has goals toy"):
-        algorithms.make("sgim-acts", only_labels)
+    assert algorithms.make("random", only_labels).strategy.alone.name == "random"
+    with pytest.raises(SgimError, match="views as outcomes; this one has goals toy and outcomes"):
+        labels.sgim_acts(only_labels)
     vectors = Task(Box(0, 1), {"view": FEATURES, "toy": TOYS}, goal_spaces={"toy": TOYS})
     with pytest.raises(SgimError, match="policies of an action and a label, such as 'push car'"):
         algorithms.make("sgim-acts", vectors)

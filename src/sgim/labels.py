@@ -85,8 +85,9 @@ LABEL_ALGORITHMS = {"random": random_choice, "sgim-acts": sgim_acts, "oracle": o
 
 
 def has_labels(task: Task) -> bool:
-    """Whether all goals of a task are labels, so that these learners are for it."""
-    return all(isinstance(space, Choices) for space in task.goal_spaces.values())
+    """Whether all goals of a task are labels, to be recognised in outcomes that are no goals."""
+    labels = all(isinstance(space, Choices) for space in task.goal_spaces.values())
+    return labels and not {*task.outcome_spaces} <= {*task.goal_spaces}
 
 
 def _learner(
@@ -116,15 +117,15 @@ def _learner(
 
 
 def _only_labels(task: Task) -> tuple[str, Choices]:
-    """The goal kind and its labels; outcomes must be those labels and one kind of views."""
-    kinds = list(task.goal_spaces)
-    space = task.goal_spaces[kinds[0]]
-    if len(kinds) != 1 or not isinstance(space, Choices) or not {*task.outcome_spaces} - {*kinds}:
+    """The goal kind and its labels."""
+    (kind, space), *others = task.goal_spaces.items()
+    if others or not isinstance(space, Choices) or not has_labels(task):
         raise SgimError(
             "learners of labels are for tasks with one kind of goal, which are labels, and views "
-            f"as outcomes; this one has goals {', '.join(kinds)}"
+            f"as outcomes; this one has goals {', '.join(task.goal_spaces)} and outcomes "
+            f"{', '.join(task.outcome_spaces)}"
         )
-    return kinds[0], space
+    return kind, space
 
 
 def _own_modes(task: Task, labels: Choices) -> list[Mode]:

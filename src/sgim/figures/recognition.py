@@ -40,6 +40,7 @@ def recognised(journals: Iterable[str | Path | RecordedRun], *, band: Band = "in
     for name in groups:
         panels.setdefault(name.partition(":")[2], []).append(name)
     learners = list(dict.fromkeys(name.partition(":")[0] for name in groups))
+    presented, least = _labels(runs[0]), float(_each(runs[0]))
     figure = new_figure(1.0 + 3.6 * len(panels), 3.4)
     drawn = figure.subplots(1, len(panels), squeeze=False, sharey=True)[0]
     for axes, (asked, names) in zip(drawn, panels.items(), strict=True):
@@ -49,6 +50,7 @@ def recognised(journals: Iterable[str | Path | RecordedRun], *, band: Band = "in
             style = learners.index(learner)
             colour = OKABE_ITO[style % len(OKABE_ITO)]
             low, middle, high = (each * (1 - x) for x in (found.high, found.middle, found.low))
+            least = min([least, *low[found.x >= len(presented)].tolist()])
             many = f" ({len(several)} runs)" if len(several) > 1 else ""
             axes.fill_between(found.x, low, high, color=colour, alpha=0.18, linewidth=0)
             axes.plot(
@@ -67,6 +69,8 @@ def recognised(journals: Iterable[str | Path | RecordedRun], *, band: Band = "in
         axes.grid(axis="y", color="#E5E5E5", linewidth=0.6)
         axes.legend(frameon=False, fontsize=8, loc="lower right")
         tidy(axes)
+    # From where every object has been presented on; before, all curves are alike.
+    drawn[0].set_ylim(np.floor(least) - 1, _each(runs[0]))
     drawn[0].set_ylabel(f"pictures recognised, of {_each(runs[0])}")
     if len(runs) > len(groups):
         figure.supxlabel(BANDS[band], fontsize=8)
@@ -87,8 +91,7 @@ def f_measures(journal: str | Path | RecordedRun) -> Figure:
         JournalError: If it cannot be read.
     """
     (run,) = _measured_by_pictures(read_runs([journal]))
-    assert run.benchmark is not None
-    labels = list(run.benchmark["pictures"])
+    labels = _labels(run)
     figure = new_figure(6.4, 4.2)
     upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=[3, 1])
     movements = [evaluation.movements for evaluation in run.evaluations]
@@ -125,6 +128,12 @@ def _f_measure(run: RecordedRun, label: str) -> FloatArray:
         right, right + missed + wrong, out=np.zeros_like(right), where=right > 0
     )
     return measure
+
+
+def _labels(run: RecordedRun) -> list[str]:
+    """The objects."""
+    assert run.benchmark is not None
+    return list(run.benchmark["pictures"])
 
 
 def _each(run: RecordedRun) -> int:
