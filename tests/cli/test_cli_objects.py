@@ -13,8 +13,9 @@ def test_a_run_with_a_caregiver_is_named_after_him_and_drawn(sgim, tmp_path) -> 
     assert "answers" not in said.out
     drawn = sgim("plot", "runs", "--out", "figures")
     assert drawn.code == 0
-    for name in ("objects-random-biased-0-recognised", "objects-random-biased-0-f-measures"):
-        assert (tmp_path / "figures" / f"{name}.png").stat().st_size > 10_000
+    for name in ("recognised", "f-measures", "toys", "pictures"):
+        drawing = tmp_path / "figures" / f"objects-random-biased-0-{name}.png"
+        assert drawing.stat().st_size > 10_000
     assert drawn.err == ""
 
 

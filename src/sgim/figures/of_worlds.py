@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from sgim.experiments.vocal_history import VocalRun, with_history
 from sgim.figures.recognition import f_measures, recognised
+from sgim.figures.toys import contact_sheet, database
 from sgim.figures.vocal_classes import vocal_classes, vocal_stages
 from sgim.figures.vocal_densities import vocal_densities
 from sgim.figures.vocal_sounds import vocal_sounds
@@ -34,7 +35,12 @@ def drawings(stem: str, runs: Sequence[RecordedRun], chosen: Collection[Path]) -
     if runs[0].experiment == "objects":
         by_path = {run.path: run for run in runs}
         told_apart = [(f"{p.stem}-f-measures", partial(f_measures, by_path[p])) for p in chosen]
-        return [(f"{stem}-recognised", partial(recognised, runs)), *told_apart]
+        return [
+            (f"{stem}-recognised", partial(recognised, runs)),
+            *told_apart,
+            (f"{stem}-toys", contact_sheet),
+            (f"{stem}-pictures", database),
+        ]
     return _vocal(stem, runs, chosen) if runs[0].experiment == "vocal" else []
 
 

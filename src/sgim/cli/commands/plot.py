@@ -54,6 +54,8 @@ def command(
     Where objects are recognised, also:
     NAME-recognised pictures recognised over episodes
     RUN-f-measures  how well each object is told apart, and which was manipulated
+    NAME-toys       the objects from four sides
+    NAME-pictures   some of the pictures by which recognition is measured
 
     Of vocal runs also:
     NAME-classes    classes of sounds over time in all runs, and the stages counted
