@@ -45,10 +45,23 @@ class Answers:
             checked = [self.task.check_context(context) for context in given]
         return self._inverse.best_policies(goals, checked)
 
-    def solve(self, kind: str, point: Any, context: Any = None) -> Solution:
-        """The policy for a goal, what it should produce, and how sure that is."""
+    def solve(
+        self, kind: str, point: Any, context: Any = None, *, radius: float | None = None
+    ) -> Solution:
+        """The policy for a goal, what it should produce, and how sure that is.
+
+        Args:
+            kind: The goal's kind.
+            point: The goal.
+            context: The context, if the task has contexts.
+            radius: How near, as a distance in the unit box, counts as reached; the model's choice
+                if not said.
+
+        Raises:
+            NoAnswerError: If nothing is known.
+        """
         goal = self.task.check_goal(kind, point)
-        return self._inverse.solve(goal, self.task.check_context(context))
+        return self._inverse.solve(goal, self.task.check_context(context), radius)
 
     def by(self, way: str | Answering) -> Repertoire:
         """The same repertoire, asked in another way of answering; the memory is shared.

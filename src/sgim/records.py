@@ -113,9 +113,12 @@ class Solution:
         policy: The policy to execute.
         expected: The outcome of the goal's kind it should produce.
         cost: Distance in the scaled goal space from ``expected`` to the goal, in [0, 1].
-        spread: Standard deviation of the outcome about ``expected``, one number per coordinate,
-            in the outcome's units; how it is estimated is said where it is computed.
+        spread: Standard deviation of what the policy may produce, one number per coordinate, in
+            the outcome's units; how it is estimated is said where it is computed.
         reachable: Whether the goal seems to be within reach.
+        radius: How near to the goal, in the scaled goal space, counts as reached; None if that
+            was not asked.
+        probability: Of coming within ``radius`` of the goal; None if the model cannot tell.
     """
 
     policy: Any
@@ -123,6 +126,8 @@ class Solution:
     cost: float
     spread: FloatArray
     reachable: bool
+    radius: float | None = None
+    probability: float | None = None
 
 
 class Trajectory:

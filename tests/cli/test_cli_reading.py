@@ -135,7 +135,10 @@ def test_plot_draws_and_says_where(sgim, finished: Path, tmp_path, format_: str)
     written = [tmp_path / line for line in said.out.split()]
     assert [path.name for path in written] == [
         f"throwing-{name}.{format_}"
-        for name in ("errors", "costs", "choices", "strategies", "explored")
+        for name in (
+            *("errors", "costs", "choices", "strategies"),
+            *("progress", "outcomes", "goals", "explored"),
+        )
     ]
     begins = b"\x89PNG" if format_ == "png" else b"<?xml"
     assert all(path.read_bytes().startswith(begins) for path in written)

@@ -122,8 +122,8 @@ def model(**changes: Any) -> Callable[[], NearestModel]:
 
 
 def solving(**changes: Any) -> Callable[[], NearestModel]:
-    def solve(self: NearestModel, goal: Goal, context: Any) -> Any:
-        return replace(NearestModel.solve(self, goal, context), **changes)
+    def solve(self: NearestModel, goal: Goal, context: Any, radius: float | None = None) -> Any:
+        return replace(NearestModel.solve(self, goal, context, radius), **changes)
 
     return model(solve=solve)
 

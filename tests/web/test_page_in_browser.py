@@ -120,8 +120,8 @@ def test_a_movement_is_drawn_looked_at_and_kept_as_a_file(hand: Hand, tmp_path: 
     hand.begin()
     hand.drag(UPWARD)
     assert "correspondence error" in hand.assessed()
-    hand.page.keyboard.press("r")
     before = hand.tip()
+    hand.page.keyboard.press("r")
     until(lambda: hand.tip() != before, "the replay moves the mallet")
     hand.page.click("#keep")
     with hand.page.expect_download() as download:

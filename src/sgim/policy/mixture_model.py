@@ -212,15 +212,15 @@ class MixtureModel:
         centres = inverse.centres(keys, inverse.likeliest(keys))
         return list(self.policy_space.decode(np.clip(centres, 0.0, 1.0)))
 
-    def solve(self, goal: Goal, context: Any) -> Solution:
+    def solve(self, goal: Goal, context: Any, radius: float | None = None) -> Solution:
         """The best policy, and the mixture's forecast of what it produces.
 
         The forecast is that of the component which is likeliest given policy and context. A goal
-        seems reachable when it lies within the task's tolerance of the forecast, or within twice
-        its spread in every coordinate.
+        seems reachable when it lies within the radius of the forecast, the task's tolerance if not
+        said, or within twice its spread in every coordinate.
         """
         if self.nearest is not None:
-            return self.nearest.solve(goal, context)
+            return self.nearest.solve(goal, context, radius)
         policy = self.best_policy(goal, context)
         known, space = self.kinds[goal.kind], self.spaces[goal.kind]
         forward = known.forward(space.dimension)
@@ -233,8 +233,8 @@ class MixtureModel:
         offset = (expected - goal.point) / space.range
         cost = min(1.0, float(np.sqrt((offset**2).sum())))
         near = bool((np.abs(expected - goal.point) <= 2 * spread).all())
-        reachable = near or cost <= self.task.tolerances[goal.kind]
-        return Solution(policy, expected, cost, spread, reachable)
+        radius = self.task.tolerances[goal.kind] if radius is None else radius
+        return Solution(policy, expected, cost, spread, near or cost <= radius, radius)
 
 
 class _Kind:

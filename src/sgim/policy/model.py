@@ -12,8 +12,11 @@ from sgim.errors import SgimError
 from sgim.memory import Memory
 from sgim.memory.memory import IntArray
 from sgim.policy.answering import Answer, Answering, Nearest
+from sgim.policy.local_model import LocalModel
 from sgim.records import Goal, Solution, Trial
 from sgim.spaces import Box, FloatArray
+
+_LIKELY = 0.5  # Probability from which on a goal seems reachable.
 
 
 class NoAnswerError(SgimError, LookupError):
@@ -88,8 +91,14 @@ class InverseModel(Protocol):
         """As `best_policy` for many goals of one kind at once; None where nothing is known."""
         ...
 
-    def solve(self, goal: Goal, context: Any) -> Solution:
-        """The policy with what it should produce, its spread, and whether that reaches."""
+    def solve(self, goal: Goal, context: Any, radius: float | None = None) -> Solution:
+        """The policy with what it should produce, its spread, and whether that reaches.
+
+        Args:
+            goal: The goal.
+            context: The context, if the task has contexts.
+            radius: How near, in the unit box, counts as reached; the model's choice if not said.
+        """
         ...
 
 
@@ -109,6 +118,7 @@ class NearestModel:
     def __init__(self, memory: Memory, answering: Answering | None = None) -> None:
         self.memory = memory
         self.answering = Nearest() if answering is None else answering
+        self._local = answering if isinstance(answering, LocalModel) else LocalModel()
         self._found: dict[int, tuple[Goal, Any, tuple[FloatArray, IntArray]]] = {}
         self._found_among = 0
         self._goal: tuple[Goal | None, Any, FloatArray] = (None, None, np.empty(0))
@@ -261,45 +271,40 @@ class NearestModel:
             return space.decode(answer.policy)
         return self.memory.policies[int(self.memory.kinds[kind].trials.rows[answer.row])]
 
-    def solve(self, goal: Goal, context: Any) -> Solution:
-        """The answer, how much its outcome scatters, and whether the goal is near enough.
+    def solve(self, goal: Goal, context: Any, radius: float | None = None) -> Solution:
+        """The answer, what it may produce, and whether that lies within a radius of the goal.
 
-        The spread is what remains of the outcomes of similar policies after a linear map is
-        fitted to them, each weighted by the inverse squared distance of its policy from the
-        answer: noise, and what is not linear there. A goal seems reachable when the answer lies
-        within its task's tolerance, or no farther than twice the distance to which remembered
-        outcomes lie apart there.
+        What it may produce is told by how like policies came out (`LocalModel.prospects`). If no
+        radius is given, it is the task's tolerance, or twice the distance to which remembered
+        outcomes lie apart there, if that is more.
         """
         answer = self._answer(goal, context)
         memory, tolerance = self.memory.kinds[goal.kind], self.memory.task.tolerances[goal.kind]
         space = self.memory.task.outcome_spaces[goal.kind]
+        wanted = self.goal_key(goal, context)
         key, expected = memory.keys.rows[answer.row], memory.outcomes[answer.row]
         if answer.expected is not None:
             assert isinstance(space, Box)  # others have no outcomes between those remembered
-            context_part = self.goal_key(goal, context)[len(answer.expected) :]
-            key, expected = np.append(answer.expected, context_part), space.decode(answer.expected)
-        difference = key - self.goal_key(goal, context)
+            key = np.append(answer.expected, wanted[len(answer.expected) :])
+            expected = space.decode(answer.expected)
         # Summed as the index does, so that the nearest outcome costs what competence says.
-        cost = min(1.0, math.sqrt(sum(x * x for x in difference.tolist())))
-        apart, _ = memory.nearest(memory.keys.rows[answer.row], 6)
-        scaled = self._spread(goal.kind, answer.row)
-        span = getattr(space, "range", np.ones(len(scaled)))
-        reachable = cost <= max(tolerance, 2 * float(apart[-1]))
-        return Solution(self._policy(goal.kind, answer), expected, cost, scaled * span, reachable)
-
-    def _spread(self, kind: str, row: int) -> FloatArray:
-        """Standard deviation of an outcome's scaled coordinates about a local linear map."""
-        memory = self.memory.kinds[kind]
-        centre = memory.encoded_policies(np.array([row]))[0]
-        apart, rows = memory.nearest_policies(centre, 2 * (len(centre) + 1))
-        outcomes = memory.keys.rows[rows, : memory.dimension]
-        design = np.column_stack((np.ones(len(rows)), memory.encoded_policies(rows) - centre))
-        # The answer itself would fit exactly, were its weight not bounded by the next one's.
-        weights = 1 / np.maximum(apart, apart[min(1, len(apart) - 1)] + 1e-9)
-        fit, _, rank, _ = np.linalg.lstsq(design * weights[:, None], outcomes * weights[:, None])
-        freedom = len(rows) - int(rank)
-        if freedom <= 0:
-            return np.zeros(memory.dimension or 0)
-        squares = (weights[:, None] * (outcomes - design @ fit)) ** 2
-        mean = squares.sum(axis=0) / (weights**2).sum()
-        return np.asarray(np.sqrt(mean * len(rows) / freedom))
+        cost = min(1.0, math.sqrt(sum(x * x for x in (key - wanted).tolist())))
+        if radius is None:
+            apart, _ = memory.nearest(memory.keys.rows[answer.row], 6)
+            radius = max(tolerance, 2 * float(apart[-1]))
+        may = self._local.prospects(memory, answer, wanted)
+        dimension = may.shape[1]
+        spread = may.std(axis=0, ddof=1 if len(may) > 1 else 0)
+        within = ((may - wanted[:dimension]) ** 2).sum(axis=1) <= radius**2
+        probability = float(within.mean())
+        if len(may) > 1:  # Never quite sure of what was seen to vary.
+            probability = (float(within.sum()) + 0.5) / (len(may) + 1)
+        return Solution(
+            self._policy(goal.kind, answer),
+            expected,
+            cost,
+            spread * getattr(space, "range", 1.0),
+            probability >= _LIKELY,
+            radius,
+            probability,
+        )

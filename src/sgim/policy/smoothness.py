@@ -20,16 +20,15 @@ Neighbourhood = tuple[FloatArray, FloatArray]
 """Policies, shape ``(k, n)``, and outcomes, shape ``(k, d)``."""
 
 _LENGTHS = 2.0 ** np.arange(-3.0, 4.0)  # Over the median distance between policies.
-_NOISES = np.array([0.0, 1e-6, 1e-5, 1e-4, 3e-4, 1e-3, 3e-3, 1e-2, 3e-2, 0.1, 0.3])
-_AS_GOOD_AS_NONE = 3  # The first of them;
-_SOME = 5  # and those from here on are noise.
+_NOISES = np.append(0.0, 10.0 ** np.arange(-8.0, 0.0, 0.5))  # Over the signal.
+_NONE, _SOME = 1e-5, 1e-3  # Up to the one there is no noise, from the other on there is some.
 _ROUNDS = 2  # Of learning the metric.
 _ALIKE = 0.5  # The share of the metric in which all directions count alike.
-_DECISIVE = 2.0  # Of a difference of logarithms of likelihoods.
+_DECISIVE = 1.0  # Of a difference of logarithms of likelihoods.
 _ENOUGH = 256  # Trials: with fewer, a few jumps of outcomes may look like noise,
 _MAPPED = (0.8, 0.6)  # and more of the differences must be explained for a map to be used.
 _DROWNED = 0.2  # Noise over the signal that hides the map.
-_LEAST_NOISE = 1e-6  # Over the signal: what rounding needs.
+_LEAST_NOISE = 1e-8  # What rounding needs.
 _MEAN = 10.0  # Variance of a neighbourhood's mean over that of the signal.
 _TINY = 1e-300
 
@@ -47,7 +46,7 @@ class Smoothness:
             neighbourhood.
         explained: Share of the differences between a neighbourhood's outcomes that is foreseen
             when each is left out, noise not counted where it is known; the median neighbourhood's.
-        enough: Whether it was learned from trials enough to know noise.
+        trials: From how many trials it was learned.
     """
 
     metric: FloatArray
@@ -56,7 +55,21 @@ class Smoothness:
     variance: FloatArray
     evidence: float
     explained: float
-    enough: bool
+    trials: int
+
+    @property
+    def enough(self) -> bool:
+        """Whether it was learned from trials enough to know noise."""
+        return self.trials >= _ENOUGH
+
+    @property
+    def modesty(self) -> float:
+        """How many times farther off than it seems what is expected may be.
+
+        A metric has a direction for each coordinate of a policy, and few trials can be fitted by
+        many.
+        """
+        return 1.0 + len(self.metric) / self.trials
 
     @property
     def noisy(self) -> bool:
@@ -71,7 +84,12 @@ class Smoothness:
     @property
     def mapped(self) -> bool:
         """Whether it foresees enough for its map to be used."""
-        return self.explained > _MAPPED[self.enough] and self.noise < _DROWNED
+        return self.explained > _MAPPED[self.enough] and not self.drowned
+
+    @property
+    def drowned(self) -> bool:
+        """Whether there is so much noise that no map can show."""
+        return self.noise > _DROWNED
 
     def correlation(self, squares: FloatArray) -> FloatArray:
         """Of the signal, over squared distances by the metric."""
@@ -149,10 +167,10 @@ def _fit(
         chosen = np.append(row, chosen[chosen != row])[:near]
         if np.ptp(points[chosen], axis=0).any():
             found.append((points[chosen] - points[row], outcomes[chosen]))
-    return found, _fitted(found, metric, len(points) >= _ENOUGH) if found else None
+    return found, _fitted(found, metric, len(points)) if found else None
 
 
-def _fitted(found: Sequence[Neighbourhood], metric: FloatArray, enough: bool) -> Smoothness:
+def _fitted(found: Sequence[Neighbourhood], metric: FloatArray, trials: int) -> Smoothness:
     parts = [(squared_distances(p), y - y.mean(axis=0)) for p, y in found]
     typical = float(np.sqrt(np.median(np.concatenate([s[s > 0] for s, _ in parts]))))
     lengths = typical * _LENGTHS
@@ -163,17 +181,20 @@ def _fitted(found: Sequence[Neighbourhood], metric: FloatArray, enough: bool) ->
     alone = np.zeros((len(parts), *sums.shape))
     for i, length in enumerate(lengths):
         for part, (squares, y) in enumerate(parts):
-            log, total = _profile(np.exp(squares * (-0.5 / length**2)), y)
+            values, loads = _spectrum(np.exp(squares * (-0.5 / length**2)), y)
+            log, total = _profile(values, loads)
             logs[i] += log
             sums[i] += total
-            free = len(y) - 1
+            # Alone, noise is weighed against the differences within the neighbourhood.
+            log, total = _profile(values / values.mean(), loads)
+            free = len(values)
             alone[part, i] = -0.5 * (log[:, None] + free * np.log(total / free + _TINY))
     together = -0.5 * (coordinates * logs + count * np.log(sums / count + _TINY).sum(axis=2))
     best = np.unravel_index(int(np.argmax(together)), together.shape)
     # Each neighbourhood is heard alone, or the few that straddle a jump would decide for all.
     noises = alone.max(axis=1)
-    with_noise = noises[:, _SOME:].max(axis=1).sum(axis=1)
-    without = noises[:, :_AS_GOOD_AS_NONE].max(axis=1).sum(axis=1)
+    with_noise = noises[:, _NOISES > 0.99 * _SOME].max(axis=1).sum(axis=1)
+    without = noises[:, _NOISES < 1.01 * _NONE].max(axis=1).sum(axis=1)
     fit = Smoothness(
         metric,
         float(lengths[best[0]]),
@@ -181,23 +202,29 @@ def _fitted(found: Sequence[Neighbourhood], metric: FloatArray, enough: bool) ->
         sums[best] / count,
         float(np.median(with_noise - without)),
         0.0,
-        enough,
+        trials,
     )
     return replace(fit, explained=float(np.median([_explained(fit, p, y) for p, y in found])))
 
 
-def _profile(correlation: FloatArray, outcomes: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """For every noise, the log-determinant, shape ``(noises,)``, and weighted sums of squares.
+def _spectrum(correlation: FloatArray, outcomes: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Variances of the signal along independent directions, and the squares of outcomes there.
 
-    The latter have shape ``(noises, d)``. A constant mean is projected out.
+    A constant mean is projected out: shapes are ``(k - 1,)`` and ``(k - 1, d)``.
     """
     mean = correlation.mean(axis=0)
-    centred = correlation - mean - mean[:, None] + mean.mean()
-    values, vectors = np.linalg.eigh(centred)
-    values = np.maximum(values[1:], 0.0) + 1e-8  # the least belongs to the constant
-    squares = (vectors[:, 1:].T @ outcomes) ** 2
+    values, vectors = np.linalg.eigh(correlation - mean - mean[:, None] + mean.mean())
+    # The least belongs to the constant.
+    return np.maximum(values[1:], 0.0) + _LEAST_NOISE, (vectors[:, 1:].T @ outcomes) ** 2
+
+
+def _profile(values: FloatArray, loads: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """For every noise, the log-determinant, shape ``(noises,)``, and weighted sums of squares.
+
+    The latter have shape ``(noises, d)``.
+    """
     spectra = values + _NOISES[:, None]
-    return np.log(spectra).sum(axis=1), (1 / spectra) @ squares
+    return np.log(spectra).sum(axis=1), (1 / spectra) @ loads
 
 
 def _explained(fit: Smoothness, points: FloatArray, outcomes: FloatArray) -> float:

@@ -26,6 +26,9 @@ def command(
         Literal["nearest", "reliable", "kernel", "local"] | None,
         arg(help_behavior_hint="(default: as the run's configuration says)"),
     ] = None,
+    within: Annotated[
+        float | None, arg(metavar="RADIUS", help_behavior_hint="(default: as near as was tried)")
+    ] = None,
     as_json: Annotated[bool, arg(name="json")] = False,
 ) -> None:
     """Ask a run what it has learned: the policy for a goal, and what that should produce.
@@ -40,14 +43,15 @@ def command(
         context: The context it is for, in worlds that have contexts.
         by: The way of answering: the nearest outcome remembered, the most reliable, the best by a
             kernel mean over like policies, or by a local model of them.
-        as_json: Print JSON: kind, goal, policy, expected, spread, cost, reachable, and the names
-            and units of coordinates.
+        within: How near counts as reached, as a share of the outcome space.
+        as_json: Print JSON: kind, goal, policy, expected, spread, cost, reachable, radius,
+            probability, and the names and units of coordinates.
     """
     learner = open_repertoire(path)
     task = learner.task
     kind, point = _parsed_goal(goal, task)
     repertoire = learner if by is None else learner.by(by)
-    solution = repertoire.solve(kind, point, _parsed_context(context, task))
+    solution = repertoire.solve(kind, point, _parsed_context(context, task), radius=within)
     checked = task.check_goal(kind, point).point
     if as_json:
         facts = _as_json(task, kind, checked, solution)
@@ -58,9 +62,13 @@ def command(
     print(f"policy\n{table(coordinates(task.policy_space, solution.policy))}\n")
     if produced is not None:
         shown = coordinates(produced, solution.expected, solution.spread.tolist())
-        print(f"should produce, ± its spread nearby\n{table(shown)}\n")
+        print(f"should produce, ± its spread\n{table(shown)}\n")
     near = "seems within reach" if solution.reachable else "seems out of reach, or unexplored"
     print(f"The goal {near}: it is missed by {solution.cost:.3g} of the outcome space.")
+    if solution.probability is not None:
+        print(
+            f"Within {solution.radius:.3g} of it: with a probability of {solution.probability:.2f}."
+        )
 
 
 def _as_json(task: Task, kind: str, point: Any, solution: Solution) -> dict[str, Any]:
@@ -76,6 +84,8 @@ def _as_json(task: Task, kind: str, point: Any, solution: Solution) -> dict[str,
         "spread": solution.spread.tolist(),
         "cost": solution.cost,
         "reachable": bool(solution.reachable),
+        "radius": solution.radius,
+        "probability": solution.probability,
         "names": {name: list(box.names) for name, box in boxes.items()},
         "units": {name: list(box.units) for name, box in boxes.items()},
     }
