@@ -87,7 +87,11 @@ def test_a_worker_that_is_killed_costs_no_run_and_the_journals_are_the_same_on_e
     assert [r.status for r in results] == ["finished"] * 4
     assert results[1].attempts == 2
     assert sorted(r.path for r in told) == sorted(r.path for r in results)
-    assert sorted(path.name for path in out.iterdir()) == [path.name for path in undisturbed]
+    # A neighbour that is killed between its last event and its closing leaves SQLite's files beside
+    # the finished journal, which belong to it and are read with it.
+    beside = ("-wal", "-shm", ".lock")
+    there = sorted(path.name for path in out.iterdir() if not path.name.endswith(beside))
+    assert there == [path.name for path in undisturbed]
     for result, expected in zip(results, undisturbed, strict=True):
         assert contents(result.path) == contents(expected)
 
