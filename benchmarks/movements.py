@@ -17,12 +17,15 @@ import tempfile
 import time
 from contextlib import suppress
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from learner import reference_loop
 
+from sgim.environments import MinimalEnvironment
 from sgim.errors import SgimError
 from sgim.experiments import experiment
+from sgim.records import Outcome
 
 WORLDS = {
     "hockey": ("sgim-d", 2000, 3),
@@ -32,28 +35,28 @@ WORLDS = {
 """Experiment → learner, movements and repetitions."""
 
 
-def milliseconds(policies: list[np.ndarray], world: object) -> float:
+def milliseconds(policies: list[np.ndarray], world: MinimalEnvironment) -> float:
     rng = np.random.default_rng(0)
     begun = time.process_time()
     for policy in policies:
         with suppress(SgimError):
-            world.execute(policy, None, rng)  # type: ignore[attr-defined]
+            world.execute(policy, None, rng)
     return 1000 * (time.process_time() - begun) / len(policies)
 
 
 class Timed:
     """A world that adds up the time of its movements, and keeps their policies."""
 
-    def __init__(self, world: object) -> None:
+    def __init__(self, world: MinimalEnvironment) -> None:
         self.world, self.seconds = world, 0.0
-        self.task = world.task  # type: ignore[attr-defined]
-        self.deterministic = world.deterministic  # type: ignore[attr-defined]
+        self.task = world.task
+        self.deterministic = world.deterministic
 
-    def execute(self, policy: object, context: object = None, rng: object = None) -> object:
+    def execute(self, policy: Any, context: Any = None, rng: Any = None) -> Outcome:
         """As the world does."""
         begun = time.process_time()
         try:
-            return self.world.execute(policy, context, rng)  # type: ignore[attr-defined]
+            return self.world.execute(policy, context, rng)
         finally:
             self.seconds += time.process_time() - begun
 

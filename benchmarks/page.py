@@ -1,7 +1,7 @@
 """Times the page: from a drag to the answered pose, and what watching costs a run.
 
-Run it as ``python benchmarks/page.py`` (drags), or with ``--watch`` (a run with and without a page
-that watches it, in the same process and beside it: its CPU time, so that what else the machine
+Run it as ``python benchmarks/page.py`` (drags), or with ``--watch`` (a vocal run with and without a
+page that watches it, in the same process and beside it: its CPU time, so that what else the machine
 does counts little).
 """
 
@@ -17,6 +17,7 @@ import tempfile
 import threading
 import time
 from pathlib import Path
+from urllib.error import HTTPError
 from urllib.parse import urlsplit
 from urllib.request import HTTPRedirectHandler, Request, build_opener
 
@@ -24,8 +25,9 @@ import numpy as np
 import websockets
 
 import sgim
-from sgim.environments import ThrowingArm
 from sgim.environments.fishing import FishingRod
+from sgim.experiments import experiment
+from sgim.experiments.vocal import BATCH
 from sgim.teachers import RemoteTeacher
 from sgim.web import serve
 
@@ -42,8 +44,8 @@ def cookie_of(url: str) -> str:
 
     try:
         build_opener(Stay).open(Request(url))
-    except Exception as answer:
-        return str(answer.headers["set-cookie"]).partition(";")[0]  # type: ignore[attr-defined]
+    except HTTPError as answer:
+        return str(answer.headers["set-cookie"]).partition(";")[0]
     raise RuntimeError("no cookie came")
 
 
@@ -121,11 +123,11 @@ def explore_on(run: sgim.Run, pace: float | None, over: threading.Event) -> None
 
 def explore(folder: Path, name: str, movements: int, watched: str) -> float:
     """CPU seconds of a run's process, watched by nobody, by a page in it, or by another."""
-    arm = ThrowingArm()
-    learner = sgim.algorithms.make("random-goal-babbling", arm.task, seed=1)
-    path = folder / f"{name}.sgim"
-    run = sgim.Run(learner, arm, journal=path, batch=400)
-    run.journal.commit()  # type: ignore[union-attr]
+    vocal, path = experiment("vocal"), folder / f"{name}.sgim"
+    learner = vocal.learner("sagg-riac-gmm", seed=1)
+    run = vocal.run(learner, path, batch=BATCH, evaluate_every=10**9)
+    assert run.journal is not None
+    run.journal.commit()
     others: list[subprocess.Popen[str]] = []
     page = serve(run, port=0) if watched == "here" else None
     url = "" if page is None else page.url

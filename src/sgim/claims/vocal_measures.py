@@ -163,8 +163,8 @@ class Emulated:
 
 
 @dataclass(frozen=True)
-class Distance:
-    """How far sounds are from the nearest sound of a language, in the mean.
+class _FromLanguage:
+    """What is measured between the sounds of a run and those of a language.
 
     Attributes:
         learner: Whose sounds.
@@ -178,6 +178,11 @@ class Distance:
 
     unit: ClassVar[Unit] = "error"
     of_choices: ClassVar[bool] = True
+
+
+@dataclass(frozen=True)
+class Distance(_FromLanguage):
+    """How far sounds are from the nearest sound of a language, in the mean."""
 
     @property
     def what(self) -> str:
@@ -191,21 +196,8 @@ class Distance:
 
 
 @dataclass(frozen=True)
-class Reach:
-    """How near the nearest hundredth of the sounds come to each sound of a language, in the mean.
-
-    Attributes:
-        learner: Whose sounds.
-        language: Which language.
-        part: The first tenth of the run, or the last.
-    """
-
-    learner: str
-    language: str
-    part: Part
-
-    unit: ClassVar[Unit] = "error"
-    of_choices: ClassVar[bool] = True
+class Reach(_FromLanguage):
+    """How near the nearest hundredth of the sounds come to those of a language, in the mean."""
 
     @property
     def what(self) -> str:

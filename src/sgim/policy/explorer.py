@@ -103,3 +103,16 @@ def begin_all(explorer: Explorer, episodes: Sequence[Episode]) -> None:
     else:
         for episode in episodes:
             explorer.begin(episode)
+
+
+def well_reached(episode: Episode, tolerance: float, share: float) -> bool:
+    """Whether an episode's goal is reached, and much nearer than it was before.
+
+    Args:
+        episode: With a goal.
+        tolerance: Cost, in the unit box, within which its goal counts as reached.
+        share: Its cost must be at most this share of what it was before.
+    """
+    assert episode.best is not None
+    assert episode.before is not None
+    return -episode.best <= min(tolerance, share * -episode.before)

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from sgim.policy.explorer import Episode
+from sgim.policy.explorer import Episode, well_reached
 from sgim.policy.model import NearestModel
 from sgim.records import Goal, Trial
 from sgim.spaces import Box, FloatArray
@@ -253,10 +253,8 @@ class LocalSearch:
     def finished(self, episode: Episode) -> bool:
         """Whether the goal is reached, and much nearer than it was before."""
         assert episode.goal is not None
-        assert episode.best is not None
-        assert episode.before is not None
         tolerance = self.model.memory.task.tolerances[episode.goal.kind]
-        return -episode.best <= min(tolerance, self.reached_share * -episode.before)
+        return well_reached(episode, tolerance, self.reached_share)
 
 
 def _solved(squares: FloatArray, right: FloatArray) -> FloatArray:

@@ -13,7 +13,7 @@ from typing import Any, Protocol
 import numpy as np
 
 from sgim.errors import SgimError
-from sgim.policy.explorer import Episode
+from sgim.policy.explorer import Episode, well_reached
 from sgim.policy.model import NearestModel
 from sgim.records import Trial
 from sgim.spaces import Box, FloatArray
@@ -84,7 +84,6 @@ class CovarianceAdaptation:
             "randn": lambda *shape: rng.standard_normal(shape),
             "seed": math.nan,
             "verbose": -9,
-            "CMA_diagonal": 0,
         }
         self._strategy = _cma().CMAEvolutionStrategy(mean, spread, options)
 
@@ -203,7 +202,5 @@ class PopulationSearch:
     def finished(self, episode: Episode) -> bool:
         """Whether the goal is reached, and much nearer than it was before."""
         assert episode.goal is not None
-        assert episode.best is not None
-        assert episode.before is not None
         tolerance = self.model.memory.task.tolerances[episode.goal.kind]
-        return -episode.best <= min(tolerance, self.reached_share * -episode.before)
+        return well_reached(episode, tolerance, self.reached_share)
