@@ -20,12 +20,13 @@ IntArray = NDArray[np.int64]
 class PointColumn:
     """The points of one space, in order: rows of numbers for a box, objects for other spaces."""
 
-    __slots__ = ("_box", "_objects", "_vectors", "space")
+    __slots__ = ("_box", "_objects", "_scaled", "_vectors", "space")
 
     def __init__(self, space: Space) -> None:
         self.space = space
         self._box = space if isinstance(space, Box) else None
         self._vectors = Column(space.dimension or 0, np.float64) if self._box else None
+        self._scaled: Column[np.float64] | None = None  # made when scaled points are asked for
         self._objects: list[Any] = []
 
     def append(self, point: Any) -> None:
@@ -53,13 +54,12 @@ class PointColumn:
     def encoded(self, rows: IntArray | slice) -> FloatArray:
         """Points of these rows scaled to the unit box, shape ``(..., dimension)``."""
         if self._box is not None and self._vectors is not None:
-            points = self._vectors.rows
-            if isinstance(rows, slice):
-                return self._box.encode(points[rows])
-            some: FloatArray = points.take(rows, axis=0)
-            some -= self._box.low  # as the box encodes, without room for copies
-            some /= self._box.range
-            return some
+            if self._scaled is None:
+                self._scaled = Column(self._box.dimension, np.float64)
+            if (known := len(self._scaled)) < len(self._vectors):
+                self._scaled.extend(self._box.encode(self._vectors.rows[known:]))
+            points = self._scaled.rows
+            return points[rows].copy() if isinstance(rows, slice) else points.take(rows, axis=0)
         chosen = (
             self._objects[rows] if isinstance(rows, slice) else [self._objects[i] for i in rows]
         )

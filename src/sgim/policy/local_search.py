@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from sgim.memory.memory import IntArray, KindMemory
 from sgim.policy.explorer import Episode, well_reached
 from sgim.policy.model import NearestModel
 from sgim.records import Goal, Trial
@@ -24,58 +25,75 @@ class _State:
     """What an episode's search knows: trials near the goal, the episode's own among them.
 
     Args:
+        memory: The trials that produced the goal's kind.
         goal: The goal's key.
-        policies: Policies in the unit box, shape ``(room, dimension)``.
-        keys: What they produced, shape ``(room, key dimension)``.
-        costs: How far that is from the goal, shape ``(room,)``, nearest first.
-        count: How many of the rows are known.
+        rows: Remembered trials, nearest first, shape ``(room,)``.
+        costs: How far what they produced is from the goal, shape ``(room,)``.
+        count: How many of the places are taken.
+
+    Attributes:
+        own: Place → policy in the unit box and key, of the episode's own trials.
+        best: Place of the best one; −1 if there is none.
+        cost: What it costs.
     """
 
-    __slots__ = ("best", "cost", "costs", "count", "goal", "keys", "policies", "proposed", "told")
+    __slots__ = (
+        "best",
+        "cost",
+        "costs",
+        "count",
+        "goal",
+        "memory",
+        "own",
+        "proposed",
+        "rows",
+        "told",
+    )
 
     def __init__(
         self,
+        memory: KindMemory,
         goal: FloatArray,
-        policies: FloatArray,
-        keys: FloatArray,
+        rows: IntArray,
         costs: FloatArray,
         count: int,
     ) -> None:
+        self.memory = memory
         self.goal = goal
-        self.policies = policies
-        self.keys = keys
+        self.rows = rows
         self.costs = costs
         self.count = count
         self.best = 0 if count else -1
         self.cost = float(costs[0]) if count else 1.0
-        self.proposed = policies[:0]
+        self.own: dict[int, tuple[FloatArray, FloatArray]] = {}
+        self.proposed = goal[:0]
         self.told: list[tuple[FloatArray, FloatArray, float]] = []
 
     def aim(self, goal: FloatArray) -> None:
         self.goal = goal
-        offsets = self.keys[: self.count] - goal
+        if not self.count:
+            return
+        keys = self.memory.keys.rows.take(self.rows[: self.count], axis=0)
+        for place, (_, key) in self.own.items():
+            keys[place] = key
+        offsets = keys - goal
         self.costs[: self.count] = np.sqrt(np.einsum("ij,ij->i", offsets, offsets))
-        if self.count:
-            self.best = int(self.costs[: self.count].argmin())
-            self.cost = float(self.costs[self.best])
+        self.best = int(self.costs[: self.count].argmin())
+        self.cost = float(self.costs[self.best])
 
     def take_in(self) -> None:
         """Add the trials that were told since the last proposal."""
-        for trial in self.told:
-            self._add(*trial)
+        for policy, key, cost in self.told:
+            n = self.count
+            if n == len(self.rows):  # the farthest from the goal makes room
+                n = int(self.costs.argmax())
+            else:
+                self.count = n + 1
+            self.own[n] = policy, key
+            self.costs[n] = cost
+            if self.best < 0 or cost < self.cost:
+                self.best, self.cost = n, cost
         self.told.clear()
-
-    def _add(self, policy: FloatArray, key: FloatArray, cost: float) -> None:
-        n = self.count
-        if n == len(self.policies):  # the farthest from the goal makes room
-            n = int(self.costs.argmax())
-        else:
-            self.count = n + 1
-        self.policies[n] = policy
-        self.keys[n] = key
-        self.costs[n] = cost
-        if self.best < 0 or cost < self.cost:
-            self.best, self.cost = n, cost
 
 
 class LocalSearch:
@@ -141,21 +159,16 @@ class LocalSearch:
         for kind, members in aimed.items():
             goals, contexts = [goal for _, goal in members], [e.context for e, _ in members]
             memory = self.model.memory.kinds[kind]
-            found = self.model.nearest_all(goals, contexts)
+            distances, near = self.model.neighbours(goals, contexts)
             # What follows the nearest makes room for the episode's own trials.
-            shape, near = (len(members), self.model.neighbourhood + self.budget), len(found[0][1])
+            count = near.shape[1]
+            shape = len(members), self.model.neighbourhood + self.budget
             rows, costs = np.zeros(shape, dtype=np.intp), np.zeros(shape)
-            rows[:, :near] = np.array([rows for _, rows in found])
-            costs[:, :near] = np.array([distances for distances, _ in found])
-            if near:
-                policies, keys = memory.encoded_policies(rows), memory.keys.rows.take(rows, axis=0)
-            else:
-                policies = np.zeros((*shape, self.space.dimension))
-                keys = np.zeros((*shape, memory.keys.width))
+            rows[:, :count], costs[:, :count] = near, distances
             wanted = self.model.memory.keys(kind, [goal.point for goal in goals], contexts)
-            states = zip(wanted, policies, keys, costs, strict=True)
-            for (episode, _), state in zip(members, states, strict=True):
-                episode.state = _State(*state, near)
+            places = zip(members, wanted, rows, costs, strict=True)
+            for (episode, _), goal, nearest, apart in places:
+                episode.state = _State(memory, goal, nearest, apart, count)
 
     def moved(self, episode: Episode) -> None:
         """Measure what is known against the goal in the new context."""
@@ -166,7 +179,7 @@ class LocalSearch:
     def propose(self, episodes: Sequence[Episode]) -> list[Any]:
         """A step and a variation for each episode, or a random policy."""
         points = np.empty((len(episodes), self.space.dimension))
-        stepping: dict[int, list[int]] = {}
+        stepping: dict[int, list[int]] = {}  # by the goal's kind
         for i, episode in enumerate(episodes):
             state: _State = episode.state
             state.take_in()
@@ -174,7 +187,7 @@ class LocalSearch:
             if state.count < 3 or episode.rng.random() < max(self.least_global, cost):
                 points[i] = episode.rng.random(self.space.dimension)
             else:
-                stepping.setdefault(len(state.goal), []).append(i)
+                stepping.setdefault(id(state.memory), []).append(i)
         for members in stepping.values():
             for first in range(0, len(members), _BLOCK):
                 chosen = members[first : first + _BLOCK]
@@ -191,22 +204,17 @@ class LocalSearch:
         same shapes however many there are.
         """
         states: list[_State] = [episode.state for episode in episodes]
-        if len(states) == 1:
-            (state,) = states
-            policies, keys = state.policies[None], state.keys[None]
-        else:
-            policies = np.array([s.policies for s in states])
-            keys = np.array([s.keys for s in states])
+        policies, keys = self._gathered(states)
         every = np.arange(len(states))[:, None]
         best = np.array([[s.best] for s in states])
         start, origin = policies[every, best], keys[every, best]
-        apart = policies - start
-        squares = np.einsum("bij,bij->bi", apart, apart)
-        for i, state in enumerate(states):
-            squares[i, state.count :] = np.inf
+        policies -= start
+        squares = np.einsum("bij,bij->bi", policies, policies)
+        counts = np.array([[s.count] for s in states])
+        squares[np.arange(squares.shape[1]) >= counts] = np.inf
         squares[squares < _SAME] = np.inf  # the best one itself, and its copies, show no way
         near = np.argpartition(squares, self.within - 1, axis=1)[:, : self.within]
-        squares, apart = squares[every, near], apart[every, near]
+        squares, apart = squares[every, near], policies[every, near]
         known = np.isfinite(squares)
         squares = np.where(known, squares, 0.0)
         reach = squares.max(axis=1)
@@ -225,6 +233,15 @@ class LocalSearch:
         point: FloatArray = start[:, 0] + steps
         point += self._variations(episodes, slopes.tolist())
         return point
+
+    def _gathered(self, states: Sequence[_State]) -> tuple[FloatArray, FloatArray]:
+        """Policies in the unit box and keys of what states of one kind know, in their places."""
+        memory, rows = states[0].memory, np.array([state.rows for state in states])
+        policies, keys = memory.encoded_policies(rows), memory.keys.rows.take(rows, axis=0)
+        for i, state in enumerate(states):
+            for place, (policy, key) in state.own.items():
+                policies[i, place], keys[i, place] = policy, key
+        return policies, keys
 
     def _variations(self, episodes: Sequence[Episode], slopes: list[float]) -> FloatArray:
         """Random offsets that should each change the outcome by some share of the cost."""

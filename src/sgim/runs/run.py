@@ -289,8 +289,7 @@ class Run:
 
     def _told(self, outcomes: Sequence[Outcome], observer: Observer | None) -> None:
         self._failures["the world"] = 0
-        for outcome in outcomes:
-            self.world.observed(outcome)
+        self.world.observed(outcomes)
         self._evaluate_if_due(observer)
 
     def _evaluate_if_due(self, observer: Observer | None) -> None:
