@@ -16,7 +16,7 @@ from sgim.spaces import Box, FloatArray
 
 _BLUR = 0.1  # Policies this much nearer than the farthest, squared, weigh alike: noise.
 _WIDEST = 1.0  # Of the standard deviation of a varied policy's coordinates in the unit box.
-_BLOCK = 32  # Episodes whose arrays are stacked at once, so that they stay in a cache.
+_BLOCK = 128  # Episodes whose arrays are stacked at once, so that they stay in a cache.
 _MANY = 8  # Systems from which on to solve them all at once is faster.
 _SAME = 1e-20  # Of a squared distance between policies in the unit box.
 
@@ -205,21 +205,22 @@ class LocalSearch:
         """
         states: list[_State] = [episode.state for episode in episodes]
         policies, keys = self._gathered(states)
-        every = np.arange(len(states))[:, None]
-        best = np.array([[s.best] for s in states])
-        start, origin = policies[every, best], keys[every, best]
+        room = policies.shape[1]
+        places = np.arange(0, len(states) * room, room)[:, None]  # of each state's first
+        best = places + np.array([[s.best] for s in states])
+        start, origin = _taken(policies, best), _taken(keys, best)
         policies -= start
         squares = np.einsum("bij,bij->bi", policies, policies)
         counts = np.array([[s.count] for s in states])
-        squares[np.arange(squares.shape[1]) >= counts] = np.inf
+        squares[np.arange(room) >= counts] = np.inf
         squares[squares < _SAME] = np.inf  # the best one itself, and its copies, show no way
-        near = np.argpartition(squares, self.within - 1, axis=1)[:, : self.within]
-        squares, apart = squares[every, near], policies[every, near]
+        near = squares.argpartition(self.within - 1, axis=1)[:, : self.within] + places
+        squares, apart = squares.take(near), _taken(policies, near)
         known = np.isfinite(squares)
-        squares = np.where(known, squares, 0.0)
+        squares[~known] = 0.0
         reach = squares.max(axis=1)
         weights = known / (squares + (_BLUR * reach + 1e-300)[:, None])
-        effects = keys[every, near] - origin
+        effects = _taken(keys, near) - origin
         weighted = effects * weights[:, :, None]
         gram = effects.transpose(0, 2, 1) @ weighted
         goals = np.array([s.goal for s in states])
@@ -272,6 +273,11 @@ class LocalSearch:
         assert episode.goal is not None
         tolerance = self.model.memory.task.tolerances[episode.goal.kind]
         return well_reached(episode, tolerance, self.reached_share)
+
+
+def _taken(vectors: FloatArray, places: IntArray) -> FloatArray:
+    """Vectors of an array of shape ``(b, room, n)``, by their places in all of it."""
+    return vectors.reshape(-1, vectors.shape[2]).take(places, axis=0)
 
 
 def _solved(squares: FloatArray, right: FloatArray) -> FloatArray:
