@@ -165,7 +165,10 @@ class LocalSearch:
             shape = len(members), self.model.neighbourhood + self.budget
             rows, costs = np.zeros(shape, dtype=np.intp), np.zeros(shape)
             rows[:, :count], costs[:, :count] = near, distances
-            wanted = self.model.memory.keys(kind, [goal.point for goal in goals], contexts)
+            if len(members) == 1:
+                wanted = self.model.goal_key(goals[0], contexts[0])[None]
+            else:
+                wanted = self.model.memory.keys(kind, [goal.point for goal in goals], contexts)
             places = zip(members, wanted, rows, costs, strict=True)
             for (episode, _), goal, nearest, apart in places:
                 episode.state = _State(memory, goal, nearest, apart, count)
@@ -237,7 +240,8 @@ class LocalSearch:
 
     def _gathered(self, states: Sequence[_State]) -> tuple[FloatArray, FloatArray]:
         """Policies in the unit box and keys of what states of one kind know, in their places."""
-        memory, rows = states[0].memory, np.array([state.rows for state in states])
+        memory = states[0].memory
+        rows = np.array([s.rows for s in states]) if len(states) > 1 else states[0].rows[None]
         policies, keys = memory.encoded_policies(rows), memory.keys.rows.take(rows, axis=0)
         for i, state in enumerate(states):
             for place, (policy, key) in state.own.items():

@@ -203,15 +203,15 @@ class NearestModel:
     ) -> tuple[FloatArray, IntArray]:
         """As `nearest` for several goals of one kind: arrays with a line for each."""
         found = self._near(goals, contexts)
-        lines = [line for *_, line in found]
-        together = found[0][2]
-        if all(near is together for _, _, near, _ in found):
-            return together.distances.take(lines, axis=0), together.rows.take(lines, axis=0)
-        places = [(near, line) for _, _, near, line in found]
-        return (
-            np.array([near.distances[line] for near, line in places]),
-            np.array([near.rows[line] for near, line in places]),
-        )
+        near, lines = found[0][2], [line for *_, line in found]
+        if any(entry[2] is not near for entry in found):
+            return (
+                np.array([entry[2].distances[entry[3]] for entry in found]),
+                np.array([entry[2].rows[entry[3]] for entry in found]),
+            )
+        if lines == list(range(len(near.rows))):
+            return near.distances, near.rows
+        return near.distances.take(lines, axis=0), near.rows.take(lines, axis=0)
 
     def _near(self, goals: Sequence[Goal], contexts: Sequence[Any]) -> list[_Found]:
         """What is near to each goal, by one query for those of a kind; those of last time again."""
