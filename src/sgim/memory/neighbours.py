@@ -22,7 +22,7 @@ Neighbours = tuple[FloatArray, IndexArray]
 
 _LARGEST = 1e150  # Of a coordinate's magnitude: squares of differences must not overflow.
 _FEW = 64  # Coordinates for which plain numbers are faster than arrays.
-_MANY = 3  # Points asked for at once, from which on they are better looked for together.
+_MANY = 6  # Points asked for at once, from which on they are better looked for together.
 _FEW_NEWEST, _MANY_NEWEST = 256, 2048  # Points that many askers together look at one by one.
 _BLOCK = 1 << 15  # Distances computed at once, so that they stay in a cache.
 _MERGE_RATIO = 6  # Raising it leaves fewer trees to ask, and merges more; 4 to 6 is best at 10^6.
@@ -241,11 +241,10 @@ class NearestNeighbours:
         first = trees[-1].stop if trees else 0
         if first < self._count:
             newest = self._newest_from(first)
-            step = max(1, _BLOCK // newest.shape[1])
-            for start in range(0, len(checked), step):
-                some = slice(start, start + step)
-                apart = _squares_between(newest[:, None], checked[some])
-                squares[some] = apart.min(axis=1)
+            if len(checked) < _MANY:
+                squares[:] = [_squared_distances(newest, point).min() for point in checked]
+            else:
+                squares[:] = _squares_between(newest[:, None], checked).min(axis=1)
         for tree in trees:
             rows, _ = tree.nearest(checked, 1)  # the two nearest: trees round in their own way
             for candidates in tree.firsts(rows).T:
