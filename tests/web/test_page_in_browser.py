@@ -16,7 +16,7 @@ from sgim.runs.journal_file import connect
 from sgim.teachers import RemoteTeacher, load_demonstrations
 from sgim.web import serve
 
-from .browsing import VIEWPORT, Hand, chromium, until
+from .browsing import VIEWPORT, Hand, chromium, crash, until, with_profile
 from .conftest import Site
 
 UPWARD = [(0.0, -2.0 * i) for i in range(1, 14)]
@@ -81,6 +81,21 @@ def hand(opened: Hand) -> Hand:
         page.keyboard.press("ArrowLeft")
         opened.wait("window.sgim.state() === 'practice'")
     return opened
+
+
+def ready(context: Any, site: Site) -> Hand:
+    """A person before the page in a browser just begun, in control of it."""
+    page = context.new_page()
+    page.goto(site.served.url)
+    hand = Hand(page)
+    hand.wait("window.sgim && window.sgim.version() !== null")
+    hand.wait("window.sgim.control() || !document.querySelector('#control').disabled")
+    if not page.evaluate("window.sgim.control()"):
+        page.click("#control")
+    hand.in_control()
+    page.select_option("#tempo", "0.5")
+    page.focus("#stage")
+    return hand
 
 
 def letters(site: Site, hockey_path: Path) -> list[tuple[Any, ...]]:
@@ -209,6 +224,36 @@ def test_a_page_that_is_closed_in_a_drag_teaches_nothing_and_keeps_the_take(
     hand.in_control()
     hand.wait("window.sgim.state() === 'assessed'")
     assert len(letters(hockey, path_of(hockey))) == before
+
+
+def test_a_browser_that_is_killed_in_a_drag_loses_nothing_given_and_teaches_no_half(
+    browser: Any, hand: Hand, hockey: Site, tmp_path: Path
+) -> None:
+    hand.page.click("#control")
+    first = with_profile(browser, tmp_path)
+    hand = ready(first, hockey)
+    hand.begin()
+    hand.drag(UPWARD)
+    hand.assessed()
+    before = len(letters(hockey, path_of(hockey)))
+    hand.page.keyboard.press("ArrowRight")
+    until(lambda: len(letters(hockey, path_of(hockey))) == before + 1, "it was given")
+    hand.wait("window.sgim.state() === 'practice'")
+    given = letters(hockey, path_of(hockey))
+    hand.begin()
+    hand.drag(UPWARD, lift=False)
+    crash(first)
+    second = with_profile(browser, tmp_path)
+    hand = ready(second, hockey)
+    assert letters(hockey, path_of(hockey)) == given
+    if hand.state() == "practice":
+        hand.begin()
+        hand.drag(UPWARD)
+    hand.assessed()
+    hand.page.keyboard.press("ArrowRight")
+    until(lambda: len(letters(hockey, path_of(hockey))) == before + 2, "the next was given")
+    hand.page.click("#control")
+    second.close()
 
 
 def test_a_second_browser_looks_on_until_the_first_gives_up(
