@@ -12,6 +12,8 @@ from typing import Any
 
 import pytest
 
+from sgim.runs.journal_file import connect
+
 NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
 
 REQUIRED = "SGIM_BROWSER_TESTS"
@@ -170,3 +172,9 @@ def until(
             return found
         time.sleep(0.03)
     raise AssertionError(f"after {seconds:g} s still not: {what}; instead: {instead()}")
+
+
+def letters(path: Path) -> list[tuple[Any, ...]]:
+    """What persons have said to the run of a journal."""
+    with connect(path, "mode=ro") as db:
+        return db.execute("SELECT what, plan, name, detail FROM letters ORDER BY number").fetchall()
