@@ -74,8 +74,8 @@ class _State:
         if not self.count:
             return
         keys = self.memory.keys.rows.take(self.rows[: self.count], axis=0)
-        for place, (_, key) in self.own.items():
-            keys[place] = key
+        for at, (_, key) in self.own.items():
+            keys[at] = key
         offsets = keys - goal
         self.costs[: self.count] = np.sqrt(np.einsum("ij,ij->i", offsets, offsets))
         self.best = int(self.costs[: self.count].argmin())
@@ -244,8 +244,8 @@ class LocalSearch:
         rows = np.array([s.rows for s in states]) if len(states) > 1 else states[0].rows[None]
         policies, keys = memory.encoded_policies(rows), memory.keys.rows.take(rows, axis=0)
         for i, state in enumerate(states):
-            for place, (policy, key) in state.own.items():
-                policies[i, place], keys[i, place] = policy, key
+            for at, (policy, key) in state.own.items():
+                policies[i, at], keys[i, at] = policy, key
         return policies, keys
 
     def _variations(self, episodes: Sequence[Episode], slopes: list[float]) -> FloatArray:
