@@ -80,6 +80,9 @@ class KindMemory:
         outcome_space: The kind's space.
         context_space: The task's context space, or None.
         policies: The memory's column of policies, for neighbours in policy space.
+
+    Attributes:
+        deterministic: Whether it is known that a policy always has the outcome that it had.
     """
 
     def __init__(
@@ -94,6 +97,7 @@ class KindMemory:
         context_dimension = (context_space.dimension or 0) if context_space else 0
         self.keys = Column((self.dimension or 0) + context_dimension, np.float64)
         self._index = NearestNeighbours(max(1, self.keys.width))
+        self.deterministic = False
         self._policies = policies
         self._policy_index: NearestNeighbours | None = None
 
@@ -158,6 +162,28 @@ class KindMemory:
             index.extend(self.encoded_policies(slice(len(index), len(self))))
         return index.query(policy, k)
 
+    def produced_near(self, policies: FloatArray, k: int) -> FloatArray:
+        """How many of the trials with the most alike policies produced this kind.
+
+        Args:
+            policies: Scaled to the unit box, shape ``(m, n)``.
+            k: How many of all trials to look at, whatever they produced.
+
+        Returns:
+            Shares, shape ``(m,)``.
+        """
+        everything = self._policies.encoded(slice(None))
+        if len(everything) == len(self):
+            return np.ones(len(policies))
+        produced = np.zeros(len(everything), dtype=bool)
+        produced[self.trials.rows] = True
+        norms, k = np.einsum("ij,ij->i", everything, everything), min(k, len(everything))
+        shares = []
+        for policy in policies:
+            apart = norms - 2 * (everything @ policy)  # but for a constant
+            shares.append(produced[np.argpartition(apart, k - 1)[:k]].mean())
+        return np.array(shares)
+
     def encoded_policies(self, rows: IntArray | slice) -> FloatArray:
         """The policies of these rows scaled to the unit box, shape ``(..., policy dimension)``."""
         trials = self.trials.rows
@@ -190,6 +216,11 @@ class Memory:
 
     def __len__(self) -> int:
         return self._length
+
+    def declare_deterministic(self) -> None:
+        """Know from now on that a policy always has the outcome that it had."""
+        for memory in self.kinds.values():
+            memory.deterministic = True
 
     def add(self, trial: Trial) -> int:
         """Remember a checked trial; returns its number."""

@@ -12,6 +12,7 @@ from sgim.policy.around import Around, taken
 from sgim.policy.smoothness import Smoothness, learned
 from sgim.spaces import Box, FloatArray
 
+_DECIDEDLY = 0.5  # Of the nearest outcome's error, what another policy may miss by.
 _FIRST, _GROWTH = 16, 2  # The map is learned again whenever there are so many times more trials.
 
 
@@ -26,8 +27,14 @@ class LocalModel:
     are expected to come nearer in the mean square. How far the model can be trusted is measured by
     leaving out each of those trials in turn.
 
-    Where there is decidedly no noise, or policies or outcomes are not vectors, it answers as
-    `Nearest` does; where there decidedly is and no map shows, as `KernelMean` does.
+    Where a policy always has the outcome that it had, the nearest remembered outcome comes again,
+    and another policy is given only where it decidedly promises more: where the error to be
+    expected, from what the model misses of like policies, is at most half of the nearest one's, and
+    none of the trials with like policies failed to produce the kind. That is so if the world says
+    it (`Memory.declare_deterministic`), or if there is decidedly no noise in what was tried.
+
+    Where policies or outcomes are not vectors it answers as `Nearest` does, and where there is
+    decidedly noise and no map shows, as `KernelMean` does.
 
     Args:
         near_outcomes: How many of the nearest outcomes to choose among.
@@ -56,10 +63,36 @@ class LocalModel:
     def answers(self, memory: KindMemory, keys: FloatArray) -> list[Answer]:
         """The policy expected to come nearest to each goal."""
         smoothness = self.smoothness(memory)
-        if smoothness is not None and smoothness.mapped and not smoothness.noiseless:
-            return [self._answer(memory, key, smoothness) for key in keys]
-        noisy = smoothness is not None and smoothness.noisy
+        exact = memory.deterministic or (smoothness is not None and smoothness.noiseless)
+        if smoothness is not None and smoothness.mapped:
+            if exact:
+                return self._surer(memory, keys, smoothness)
+            return [self._answer(memory, key, smoothness, self.near_outcomes) for key in keys]
+        noisy = smoothness is not None and smoothness.noisy and not exact
         return (KernelMean() if noisy else Nearest()).answers(memory, keys)
+
+    def _surer(self, memory: KindMemory, keys: FloatArray, smoothness: Smoothness) -> list[Answer]:
+        """The nearest outcome's policy, or another where that decidedly promises more."""
+        answers = Nearest().answers(memory, keys)
+        rows = np.array([answer.row for answer in answers])
+        known = ((memory.keys.rows[rows] - keys) ** 2).sum(axis=1)
+        produced = memory.produced_near(memory.encoded_policies(rows), self.near_policies // 2)
+        better: dict[int, Answer] = {}
+        for i in np.flatnonzero(produced == 1.0).tolist():
+            found = self._answer(memory, keys[i], smoothness, 1)
+            if found.policy is None:
+                continue
+            may = self.prospects(memory, found, keys[i])
+            square = float(((may - keys[i, : may.shape[1]]) ** 2).sum(axis=1).mean())
+            if square < _DECIDEDLY**2 * known[i]:
+                better[i] = found
+        if better:
+            tried = np.array([found.policy for found in better.values()])
+            produced = memory.produced_near(tried, self.near_policies // 2)
+            for i, share in zip(better, produced.tolist(), strict=True):
+                if share == 1.0:
+                    answers[i] = better[i]
+        return answers
 
     def smoothness(self, memory: KindMemory) -> Smoothness | None:
         """What is known of the map from policies to outcomes; None if that is not enough.
@@ -94,7 +127,9 @@ class LocalModel:
         dimension = memory.dimension or 0
         remembered = memory.keys.rows[[answer.row], :dimension]
         smoothness = self.smoothness(memory)
-        if smoothness is None or (smoothness.noiseless and answer.policy is None):
+        if smoothness is None:
+            return remembered
+        if answer.policy is None and (memory.deterministic or smoothness.noiseless):
             return remembered
         policy = answer.policy
         if policy is None:
@@ -105,12 +140,14 @@ class LocalModel:
         around = Around(inputs, outcomes, centre[None], smoothness, self.near_policies)
         return around.may_produce(self.like_policies)
 
-    def _answer(self, memory: KindMemory, key: FloatArray, smoothness: Smoothness) -> Answer:
+    def _answer(
+        self, memory: KindMemory, key: FloatArray, smoothness: Smoothness, candidates: int
+    ) -> Answer:
         _, rows = memory.nearest(key, self.among)
         outcomes, inputs = taken(memory, rows)
         goal, context = key[: outcomes.shape[1]], key[outcomes.shape[1] :]
         dimension = inputs.shape[1] - len(context)
-        centres = inputs[: self.near_outcomes].copy()
+        centres = inputs[:candidates].copy()
         centres[:, dimension:] = context
         around = Around(inputs, outcomes, centres, smoothness, self.near_policies)
         best, expected, square = around.best(goal)
