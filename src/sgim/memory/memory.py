@@ -162,27 +162,31 @@ class KindMemory:
             index.extend(self.encoded_policies(slice(len(index), len(self))))
         return index.query(policy, k)
 
-    def produced_near(self, policies: FloatArray, k: int) -> FloatArray:
-        """How many of the trials with the most alike policies produced this kind.
+    def chance_of_failing(self, policies: FloatArray, k: int) -> FloatArray:
+        """The chance that policies do not produce this kind, by what the most alike trials did.
+
+        It is Laplace's rule of succession, (failures + 1)/(trials + 2): over the k most alike of
+        all trials, or over all of them if none ever failed.
 
         Args:
             policies: Scaled to the unit box, shape ``(m, n)``.
-            k: How many of all trials to look at, whatever they produced.
+            k: How many trials to look at.
 
         Returns:
-            Shares, shape ``(m,)``.
+            Chances, shape ``(m,)``.
         """
         everything = self._policies.encoded(slice(None))
         if len(everything) == len(self):
-            return np.ones(len(policies))
-        produced = np.zeros(len(everything), dtype=bool)
-        produced[self.trials.rows] = True
+            return np.full(len(policies), 1 / (len(self) + 2))
+        failed = np.ones(len(everything), dtype=bool)
+        failed[self.trials.rows] = False
         norms, k = np.einsum("ij,ij->i", everything, everything), min(k, len(everything))
-        shares = []
+        failures = []
         for policy in policies:
             apart = norms - 2 * (everything @ policy)  # but for a constant
-            shares.append(produced[np.argpartition(apart, k - 1)[:k]].mean())
-        return np.array(shares)
+            failures.append(failed[np.argpartition(apart, k - 1)[:k]].sum())
+        chances: FloatArray = (np.array(failures) + 1) / (k + 2)
+        return chances
 
     def encoded_policies(self, rows: IntArray | slice) -> FloatArray:
         """The policies of these rows scaled to the unit box, shape ``(..., policy dimension)``."""

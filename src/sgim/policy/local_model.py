@@ -29,9 +29,9 @@ class LocalModel:
 
     Where a policy always has the outcome that it had, the nearest remembered outcome comes again,
     and another policy is given only where it decidedly promises more: where the error to be
-    expected, from what the model misses of like policies, is at most half of the nearest one's, and
-    none of the trials with like policies failed to produce the kind. That is so if the world says
-    it (`Memory.declare_deterministic`), or if there is decidedly no noise in what was tried.
+    expected is at most half of the nearest one's. It is what the model misses of like policies, and
+    1 by the chance that the kind is not produced at all. That is so if the world says it
+    (`Memory.declare_deterministic`), or if there is decidedly no noise in what was tried.
 
     Where policies or outcomes are not vectors it answers as `Nearest` does, and where there is
     decidedly noise and no map shows, as `KernelMean` does.
@@ -75,23 +75,22 @@ class LocalModel:
         """The nearest outcome's policy, or another where that decidedly promises more."""
         answers = Nearest().answers(memory, keys)
         rows = np.array([answer.row for answer in answers])
-        known = ((memory.keys.rows[rows] - keys) ** 2).sum(axis=1)
-        produced = memory.produced_near(memory.encoded_policies(rows), self.near_policies // 2)
-        better: dict[int, Answer] = {}
-        for i in np.flatnonzero(produced == 1.0).tolist():
+        known = np.sqrt(((memory.keys.rows[rows] - keys) ** 2).sum(axis=1))
+        worth = _DECIDEDLY * known
+        risks = memory.chance_of_failing(memory.encoded_policies(rows), self.near_policies)
+        better: dict[int, tuple[Answer, float]] = {}
+        for i in np.flatnonzero(risks < worth).tolist():
             found = self._answer(memory, keys[i], smoothness, 1)
-            if found.policy is None:
-                continue
-            may = self.prospects(memory, found, keys[i])
-            square = float(((may - keys[i, : may.shape[1]]) ** 2).sum(axis=1).mean())
-            if square < _DECIDEDLY**2 * known[i]:
-                better[i] = found
+            if found.policy is not None:
+                may = self.prospects(memory, found, keys[i])
+                squares = ((may - keys[i, : may.shape[1]]) ** 2).sum(axis=1)
+                better[i] = found, math.sqrt(float(squares.mean()))
         if better:
-            tried = np.array([found.policy for found in better.values()])
-            produced = memory.produced_near(tried, self.near_policies // 2)
-            for i, share in zip(better, produced.tolist(), strict=True):
-                if share == 1.0:
-                    answers[i] = better[i]
+            tried = np.array([found.policy for found, _ in better.values()])
+            risks = memory.chance_of_failing(tried, self.near_policies)
+            for (i, (found, miss)), risk in zip(better.items(), risks.tolist(), strict=True):
+                if miss + risk < worth[i]:  # a goal whose kind is not produced costs 1
+                    answers[i] = found
         return answers
 
     def smoothness(self, memory: KindMemory) -> Smoothness | None:
