@@ -105,6 +105,41 @@ class Smoothness:
         """The covariance of a policy with itself."""
         return 1.0 + _MEAN
 
+    def slopes(self, apart: FloatArray, weights: FloatArray, dimension: int) -> FloatArray:
+        """How much outcomes change along each coordinate of a policy.
+
+        Args:
+            apart: Where trials lie from the policy, by the metric, shape ``(k, n)``.
+            weights: Of the trials' covariances in what is expected, shape ``(k, d)``.
+            dimension: Of policies; what follows in a row are contexts.
+
+        Returns:
+            Shape ``(dimension, d)``.
+        """
+        correlation = self.correlation(np.einsum("ij,ij->i", apart, apart))
+        slopes = self.metric[:dimension] @ (apart.T @ (weights * correlation[:, None]))
+        slopes /= self.length**2
+        return slopes
+
+    def way(self, slopes: FloatArray, lacking: FloatArray) -> FloatArray | None:
+        """The least change of a policy, by the metric, that should change its outcome by as much.
+
+        Args:
+            slopes: As `slopes` gives them, shape ``(dimension, d)``.
+            lacking: The change of the outcome, shape ``(d,)``.
+
+        Returns:
+            Shape ``(dimension,)``; None if nothing is known of the way.
+        """
+        metric = self.metric[: len(slopes)]
+        least = np.linalg.solve(metric @ metric.T, slopes)
+        gram = slopes.T @ least
+        damping = 1e-6 * float(np.trace(gram))
+        if not damping > 0:
+            return None
+        way: FloatArray = least @ np.linalg.solve(gram + damping * np.eye(len(gram)), lacking)
+        return way
+
     def inverses(self, points: FloatArray) -> FloatArray:
         """Inverse covariances of outcomes at some points by the metric, shape ``(..., k, n)``."""
         covariances = self.covariance(squared_distances(points))
