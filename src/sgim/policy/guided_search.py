@@ -79,7 +79,7 @@ class GuidedSearch:
         variation: tuple[float, float] = (0.5, 1.5),
         above_noise: float = 2.0,
         variations: int = 8,
-        least_global: float = 0.02,
+        least_global: float = 0.1,
     ) -> None:
         self.local = local
         self.model = local.model

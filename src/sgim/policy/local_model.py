@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 
@@ -27,7 +28,8 @@ class LocalModel:
     leaving out each of those trials in turn.
 
     Where there is decidedly no noise, or policies or outcomes are not vectors, it answers as
-    `Nearest` does; where there decidedly is and no map shows, as `KernelMean` does.
+    `Nearest` does, unless the map foresees nearly all and every policy produced an outcome; where
+    there decidedly is noise and no map shows, as `KernelMean` does.
 
     Args:
         near_outcomes: How many of the nearest outcomes to choose among.
@@ -56,7 +58,7 @@ class LocalModel:
     def answers(self, memory: KindMemory, keys: FloatArray) -> list[Answer]:
         """The policy expected to come nearest to each goal."""
         smoothness = self.smoothness(memory)
-        if smoothness is not None and smoothness.mapped and not smoothness.noiseless:
+        if smoothness is not None and smoothness.mapped:
             return [self._answer(memory, key, smoothness) for key in keys]
         noisy = smoothness is not None and smoothness.noisy
         return (KernelMean() if noisy else Nearest()).answers(memory, keys)
@@ -74,7 +76,11 @@ class LocalModel:
         known = self._learned.get(memory)
         if known is None or known[0] != count:
             outcomes, inputs = taken(memory, slice(0, count))
-            known = self._learned[memory] = count, learned(inputs, outcomes)
+            found = learned(inputs, outcomes)
+            if found is not None:
+                always = int(memory.trials.rows[count - 1]) == count - 1
+                found = replace(found, always=always)
+            known = self._learned[memory] = count, found
         return known[1]
 
     def prospects(self, memory: KindMemory, answer: Answer, key: FloatArray) -> FloatArray:

@@ -9,7 +9,7 @@ from sgim.spaces import FloatArray
 
 _SHARES = np.array([[0.25], [0.5], [1.0]])  # Of a step, to choose among.
 _FARTHEST = 2.0  # Lengths of the map that a step has at most.
-_LEAST_NOISE = 1e-6  # What rounding needs while the inverse grows.
+_LEAST_NOISE = 1e-4  # Over the signal: what rounding needs while the inverse grows.
 
 
 class OutcomeMap:

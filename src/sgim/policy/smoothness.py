@@ -27,6 +27,9 @@ _ALIKE = 0.5  # The share of the metric in which all directions count alike.
 _DECISIVE = 1.0  # Of a difference of logarithms of likelihoods.
 _ENOUGH = 256  # Trials: with fewer, a few jumps of outcomes may look like noise,
 _MAPPED = (0.8, 0.6)  # and more of the differences must be explained for a map to be used.
+_CLEAR = 0.01  # But noise of at most this share of the signal is not what jumps look like: then
+_MAPPED_CLEARLY = 0.4  # less will do.
+_NEARLY_ALL = 0.95  # Of the differences explained for a map to be used where there is no noise.
 _DROWNED = 0.2  # Noise over the signal that hides the map.
 _LEAST_NOISE = 1e-8  # What rounding needs.
 _MEAN = 10.0  # Variance of a neighbourhood's mean over that of the signal.
@@ -47,6 +50,8 @@ class Smoothness:
         explained: Share of the differences between a neighbourhood's outcomes that is foreseen
             when each is left out, noise not counted where it is known; the median neighbourhood's.
         trials: From how many trials it was learned.
+        always: Whether every policy tried by then produced such an outcome: a map knows nothing of
+            policies that do not.
     """
 
     metric: FloatArray
@@ -56,6 +61,7 @@ class Smoothness:
     evidence: float
     explained: float
     trials: int
+    always: bool = True
 
     @property
     def enough(self) -> bool:
@@ -84,7 +90,13 @@ class Smoothness:
     @property
     def mapped(self) -> bool:
         """Whether it foresees enough for its map to be used."""
-        return self.explained > _MAPPED[self.enough] and not self.drowned
+        if self.drowned:
+            return False
+        if self.noiseless:  # A step must come nearer than what can be repeated exactly.
+            return self.always and self.explained > _NEARLY_ALL
+        clear = self.always and self.evidence > _DECISIVE and self.noise <= _CLEAR
+        least = _MAPPED_CLEARLY if clear and not self.enough else _MAPPED[self.enough]
+        return self.explained > least
 
     @property
     def drowned(self) -> bool:
