@@ -1,4 +1,4 @@
-"""Facts of the fishing world: where random movements land, how they scatter, and how long it takes.
+"""Facts of the fishing world: where movements land, how they scatter, and how long it takes.
 
 Run it as ``python benchmarks/fishing_world.py``; it takes some minutes.
 """
@@ -7,12 +7,15 @@ import time
 
 import numpy as np
 
-from sgim.environments import FishingFloor, FishingRod
+from sgim.environments import FishingFloor, FishingRod, fishing_demonstrations
+from sgim.environments.fishing.movement import FISHING
 from sgim.errors import SgimError
+from sgim.records import Trajectory
 
 MOVEMENTS = {True: 5000, False: 1500}
 SCATTERED = 400
 REPETITIONS = 10
+SHOWN_AGAIN = 4
 
 
 def landings(world: FishingRod, policies: np.ndarray, rng: np.random.Generator) -> np.ndarray:
@@ -69,11 +72,51 @@ def floor() -> None:
     print(f"floor: {milliseconds:.1f} ms a movement; {np.mean(seen):.1%} come to rest in view")
 
 
+def demonstrations() -> None:
+    """How far demonstrations land from where they did, repeated or as the robot copies them."""
+    rng = np.random.default_rng(3)
+    still, usual, full = FishingRod(0.0), FishingRod(), FishingRod(fast=False)
+    for number in (1, 2, 3):
+        shown = fishing_demonstrations(number)
+        landed = [d.outcome["float"] for d in shown]
+        moves: list[np.ndarray | Trajectory | None] = [d.trajectory or d.policy for d in shown]
+        print(f"D{number}: {len(shown)} demonstrations, {sum(y < 0 for _, y in landed)} at y < 0")
+        if number == 3:
+            apart("led again", still, moves, landed, 1, rng)
+            apart("led with noise", usual, moves, landed, SHOWN_AGAIN, rng)
+            fits = [FISHING.fit(d.trajectory) for d in shown if d.trajectory is not None]
+            residuals = np.degrees([residual for _, residual in fits])
+            print(f"  residual: median {np.median(residuals):.2f}°, most {residuals.max():.2f}°")
+            moves = [policy for policy, _ in fits]
+        apart("without noise", still, moves, landed, 1, rng)
+        apart("with noise", usual, moves, landed, SHOWN_AGAIN, rng)
+        apart("in the full model, with noise", full, moves, landed, 1, rng)
+
+
+def apart(
+    what: str,
+    world: FishingRod,
+    moves: list[np.ndarray | Trajectory | None],
+    landed: list[np.ndarray],
+    repetitions: int,
+    rng: np.random.Generator,
+) -> None:
+    """Print how far movements land from where they should; one that does not land counts 1 m."""
+    misses = []
+    for move, where in zip(moves, landed, strict=True):
+        for _ in range(repetitions):
+            led = isinstance(move, Trajectory)
+            outcome = world.follow(move, rng) if led else world.execute(move, None, rng)
+            misses.append(float(np.linalg.norm(outcome["float"] - where)) if outcome else 1.0)
+    print(f"  {what}: median {np.median(misses):.3f}, mean {np.mean(misses):.3f} m")
+
+
+demonstrations()
 fast, full = model(True), model(False)
-apart = np.linalg.norm(fast[: len(full)] - full, axis=1)
+gaps = np.linalg.norm(fast[: len(full)] - full, axis=1)
 print(
-    f"fast and full model land apart: median {np.nanmedian(apart):.4f}, 90th percentile "
-    f"{np.nanquantile(apart, 0.9):.3f} m; "
+    f"fast and full model land apart: median {np.nanmedian(gaps):.4f}, 90th percentile "
+    f"{np.nanquantile(gaps, 0.9):.3f} m; "
     f"{(np.isnan(fast[: len(full), 0]) != np.isnan(full[:, 0])).mean():.1%} land in one model only"
 )
 for factor in (0.4, 1.0):

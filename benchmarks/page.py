@@ -1,8 +1,8 @@
 """Times the page: from a drag to the answered pose, and what watching costs a run.
 
 Run it as ``python benchmarks/page.py`` (drags), or with ``--watch`` (a vocal run with and without a
-page that watches it, in the same process and beside it: its CPU time, so that what else the machine
-does counts little).
+page that watches it, in the same process and beside it: the time it takes, and the CPU time of its
+process, on which what else the machine does counts less).
 """
 
 from __future__ import annotations
@@ -121,8 +121,8 @@ def explore_on(run: sgim.Run, pace: float | None, over: threading.Event) -> None
         run.go(run.movements + 2, pace=pace)
 
 
-def explore(folder: Path, name: str, movements: int, watched: str) -> float:
-    """CPU seconds of a run's process, watched by nobody, by a page in it, or by another."""
+def explore(folder: Path, name: str, movements: int, watched: str) -> tuple[float, float]:
+    """Seconds of a run, and of CPU of its process, if nobody watches, a page in it, or another."""
     vocal, path = experiment("vocal"), folder / f"{name}.sgim"
     learner = vocal.learner("sagg-riac-gmm", seed=1)
     run = vocal.run(learner, path, batch=BATCH, evaluate_every=10**9)
@@ -139,9 +139,9 @@ def explore(folder: Path, name: str, movements: int, watched: str) -> float:
         command = [sys.executable, __file__, "--look", url]
         others.append(subprocess.Popen(command, stdout=subprocess.PIPE, text=True))
         next(iter(others[-1].stdout or ()))
-    begun = time.process_time()
+    begun, cpu = time.perf_counter(), time.process_time()
     run.go(movements)
-    took = time.process_time() - begun
+    took = time.perf_counter() - begun, time.process_time() - cpu
     for other in reversed(others):
         other.kill()
         other.communicate()
@@ -166,19 +166,20 @@ async def look(url: str) -> None:
 
 
 def time_watching(folder: Path, movements: int, rounds: int) -> None:
-    """How much more a run's process has to do when it is watched, in turn with one that is not."""
-    times: dict[str, list[float]] = {"nobody": [], "here": [], "beside": []}
+    """How much longer a run takes when it is watched, in turn with one that is not."""
+    times: dict[str, list[tuple[float, float]]] = {"nobody": [], "here": [], "beside": []}
     for number in range(rounds):
         for watched, kept in times.items():
             kept.append(explore(folder, f"{watched}{number}", movements, watched))
-            print(f"{watched:8} {kept[-1]:.2f} s of CPU", flush=True)
+            print(f"{watched:8} {kept[-1][0]:.2f} s, {kept[-1][1]:.2f} s of CPU", flush=True)
     for watched in ("here", "beside"):
-        pairs = zip(times[watched], times["nobody"], strict=True)
-        ratios = sorted(one / other for one, other in pairs)
-        print(
-            f"watched {watched}: {statistics.median(ratios):.3f} times as much "
-            f"({ratios[0]:.3f} to {ratios[-1]:.3f}), {movements} movements"
-        )
+        for which, what in enumerate(("time", "CPU time")):
+            pairs = zip(times[watched], times["nobody"], strict=True)
+            ratios = sorted(one[which] / other[which] for one, other in pairs)
+            print(
+                f"watched {watched}: {statistics.median(ratios):.3f} times the {what} "
+                f"({ratios[0]:.3f} to {ratios[-1]:.3f}), {movements} movements"
+            )
 
 
 def main() -> None:

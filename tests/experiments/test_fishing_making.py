@@ -1,12 +1,21 @@
+import math
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from sgim.environments.fishing.floor import DURATION
+from sgim.environments.fishing.movement import FISHING
 from sgim.errors import SgimError
 from sgim.experiments import experiment
 from sgim.experiments.even_spread import by_tile, mean_miss
 from sgim.experiments.make_fishing_goals import tiled
-from sgim.experiments.make_fishing_kinaesthetic import REACH, floor_search, rod_search, search
+from sgim.experiments.make_fishing_kinaesthetic import (
+    floor_search,
+    most_repeatable,
+    rod_search,
+    search,
+)
 from sgim.experiments.make_fishing_learned import choose
 from sgim.experiments.make_fishing_pool import Pool, explore, read_pool, write_pool
 
@@ -52,11 +61,38 @@ def test_a_movement_that_fails_or_does_not_land_misses_by_one_metre() -> None:
     assert mean_miss(executions, np.zeros(2)) == pytest.approx(0.8)
 
 
+def test_a_mean_miss_that_is_too_great_is_not_measured_to_the_end() -> None:
+    made: list[int] = []
+
+    def execute() -> dict[str, np.ndarray]:  # type: ignore[type-arg]
+        made.append(1)
+        return {"float": np.array([0.0, 0.5])}
+
+    assert mean_miss([execute] * 4, np.zeros(2), least=0.2) == math.inf
+    assert len(made) == 2
+    assert mean_miss([execute] * 4, np.zeros(2), least=0.6) == pytest.approx(0.5)
+
+
 def test_the_search_finds_movements_where_few_land() -> None:
-    found = search(rod_search(), np.random.default_rng(3), 60)
+    found = search(rod_search(), np.random.default_rng(3), 150)
     assert len(found) > 10
     assert all(np.abs(candidate.landing).max() < 1 for candidate in found)
-    assert all(np.abs(candidate.end).max() <= REACH for candidate in found)
+    for candidate in found:
+        assert np.abs(candidate.end).max() <= 1
+        assert 0.4 <= candidate.duration <= 3
+        assert candidate.recording.times[-1] == max(candidate.duration, 0.8)
+        fitted, _ = FISHING.fit(candidate.recording)
+        np.testing.assert_array_equal(candidate.copy, fitted)
+
+
+def test_of_those_in_a_tile_the_one_is_chosen_whose_copy_replays_best() -> None:
+    found = search(rod_search(), np.random.default_rng(3), 40)
+    good, bad = found[0], replace(found[0], copy=np.full(25, 0.5))
+    sought = replace(rod_search(), count=1, replays=(2, 0))
+    for pair in ([good, bad], [bad, good]):
+        [(missed, chosen)] = most_repeatable(sought, pair, np.random.default_rng(0))
+        assert chosen is good
+        assert missed < 0.2
 
 
 def test_the_search_of_the_floor_finds_balls_that_rest_in_view() -> None:

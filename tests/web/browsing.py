@@ -6,11 +6,13 @@ import os
 import shutil
 import time
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
 import pytest
+
+from sgim.runs.journal_file import connect
 
 NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
 
@@ -49,6 +51,26 @@ def chromium() -> Iterator[Any]:
         browser = playwright.chromium.launch(executable_path=path, args=OPTIONS)
         yield browser
         browser.close()
+
+
+def with_profile(browser: Any, profile: Path) -> Any:
+    """A browser of its own that can be killed and begun again: a folder keeps what it stores.
+
+    Args:
+        browser: Another one, of the same sort.
+        profile: The folder.
+    """
+    path = next(found for name in NAMES if (found := shutil.which(name)))
+    return browser.browser_type.launch_persistent_context(
+        profile, executable_path=path, args=OPTIONS, viewport=VIEWPORT
+    )
+
+
+def crash(context: Any) -> None:
+    """Kill a browser at once, with all its pages."""
+    session = context.new_cdp_session(context.pages[0])
+    with suppress(Exception):  # it has no time to answer
+        session.send("Browser.crash")
 
 
 class Hand:
@@ -150,3 +172,9 @@ def until(
             return found
         time.sleep(0.03)
     raise AssertionError(f"after {seconds:g} s still not: {what}; instead: {instead()}")
+
+
+def letters(path: Path) -> list[tuple[Any, ...]]:
+    """What persons have said to the run of a journal."""
+    with connect(path, "mode=ro") as db:
+        return db.execute("SELECT what, plan, name, detail FROM letters ORDER BY number").fetchall()

@@ -16,12 +16,18 @@ import pytest
 import websockets
 
 import sgim
-from sgim.environments import ThrowingArm
+from sgim.environments import AirHockey, ThrowingArm
 from sgim.experiments import EXPERIMENTS
 from sgim.teachers import RemoteTeacher
 from sgim.web import Served, serve
 
+from .browsing import VIEWPORT, Hand, chromium
+
 ARM = ThrowingArm()
+TABLE = AirHockey()
+
+UPWARD = [(0.0, -2.0 * i) for i in range(1, 14)]
+"""A way of the mallet on the screen: straight up, so that the puck comes back to the far border."""
 
 
 def taught_run(path: Path, learner: str = "sgim-acts", **more: Any) -> sgim.Run:
@@ -48,6 +54,10 @@ class Site:
     def base(self) -> str:
         parts = urlsplit(self.served.url)
         return f"http://{parts.netloc}"
+
+    @property
+    def journal(self) -> Path:
+        return self.served.journals[0]
 
     @property
     def host(self) -> str:
@@ -110,3 +120,62 @@ def site(journal: Path) -> Iterator[Site]:
     """The page of that run, for teaching."""
     with serve(journal, teach=True, port=0) as served:
         yield Site(served)
+
+
+@pytest.fixture(scope="module")
+def browser() -> Iterator[Any]:
+    with chromium() as found:
+        yield found
+
+
+@pytest.fixture(scope="module")
+def hockey(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Site]:
+    """The page of a hockey run that has stopped while it asks."""
+    path: Path = tmp_path_factory.mktemp("hockey") / "taught.sgim"
+    learner = sgim.algorithms.make("mimicry", TABLE.task, ["person"], seed=3)
+    with sgim.Run(
+        learner,
+        TABLE,
+        {"person": RemoteTeacher(3600.0)},
+        journal=path,
+        about={"experiment": "hockey", "learner": "mimicry"},
+    ) as run:
+        run.go(60)
+    with serve(path, teach=True, port=0) as served:
+        yield Site(served)
+
+
+@pytest.fixture(scope="module")
+def opened(browser: Any, hockey: Site) -> Iterator[Hand]:
+    """A page that is in control; at its end, it has met no error and asked nobody else."""
+    context = browser.new_context(viewport=VIEWPORT, accept_downloads=True)
+    page = context.new_page()
+    requested: list[str] = []
+    page.on("request", lambda request: requested.append(request.url))
+    errors: list[str] = []
+    page.on("pageerror", lambda error: errors.append(str(error)))
+    page.goto(hockey.served.url)
+    yield Hand(page)
+    context.close()
+    assert not errors
+    ours = (f"{hockey.base}/", f"ws://{hockey.host}/", "blob:", "data:")
+    assert all(url.startswith(ours) for url in requested), requested
+
+
+@pytest.fixture
+def hand(opened: Hand) -> Hand:
+    """The person before that page, who has nothing in hand."""
+    page = opened.page
+    opened.wait("window.sgim && window.sgim.version() !== null")
+    page.set_viewport_size(VIEWPORT)
+    page.click("#tab-teach")
+    page.focus("#stage")
+    if not page.evaluate("window.sgim.control()"):
+        page.click("#control")
+    opened.in_control()
+    page.select_option("#tempo", "0.5")
+    page.focus("#stage")
+    if opened.state() != "practice":
+        page.keyboard.press("ArrowLeft")
+        opened.wait("window.sgim.state() === 'practice'")
+    return opened

@@ -7,7 +7,6 @@ import re
 import signal
 import subprocess
 import sys
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -19,7 +18,7 @@ from sgim.environments.fishing import FishingRod
 from sgim.events import Answered, Closed, Demonstrated, Ended
 from sgim.runs.letters import LetterBox
 
-from .browsing import VIEWPORT, Hand, chromium, until
+from .browsing import VIEWPORT, Hand, until
 
 STROKES = [(-90.0, -30.0), (-20.0, 100.0)]
 """How the rod's tip is led on the screen: up and to the side, then down to the water."""
@@ -69,12 +68,6 @@ def teach(path: Path, *more: str) -> Teaching:
 def events(path: Path, *kinds: type) -> list[Any]:
     with sgim.Journal.open(path, FishingRod(0.0).task, append=False) as journal:
         return [event for event in journal.events() if isinstance(event, kinds)]
-
-
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Any]:
-    with chromium() as found:
-        yield found
 
 
 @pytest.fixture

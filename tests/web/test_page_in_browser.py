@@ -3,93 +3,17 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import pytest
 
-import sgim
-from sgim.environments import AirHockey
 from sgim.experiments import experiment
-from sgim.runs.journal_file import connect
-from sgim.teachers import RemoteTeacher, load_demonstrations
+from sgim.teachers import load_demonstrations
 from sgim.web import serve
 
-from .browsing import VIEWPORT, Hand, chromium, until
-from .conftest import Site
-
-UPWARD = [(0.0, -2.0 * i) for i in range(1, 14)]
-"""A way of the mallet on the screen: straight up, so that the puck comes back to the far border."""
-TABLE = AirHockey()
-
-
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Any]:
-    with chromium() as found:
-        yield found
-
-
-@pytest.fixture(scope="module")
-def hockey(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Site]:
-    """The page of a hockey run that has stopped while it asks."""
-    path: Path = tmp_path_factory.mktemp("hockey") / "taught.sgim"
-    learner = sgim.algorithms.make("mimicry", TABLE.task, ["person"], seed=3)
-    with sgim.Run(
-        learner,
-        TABLE,
-        {"person": RemoteTeacher(3600.0)},
-        journal=path,
-        about={"experiment": "hockey", "learner": "mimicry"},
-    ) as run:
-        run.go(60)
-    with serve(path, teach=True, port=0) as served:
-        yield Site(served)
-
-
-@pytest.fixture(scope="module")
-def opened(browser: Any, hockey: Site) -> Iterator[Hand]:
-    """A page that is in control; at its end, it has met no error and asked nobody else."""
-    context = browser.new_context(viewport=VIEWPORT, accept_downloads=True)
-    page = context.new_page()
-    requested: list[str] = []
-    page.on("request", lambda request: requested.append(request.url))
-    errors: list[str] = []
-    page.on("pageerror", lambda error: errors.append(str(error)))
-    page.goto(hockey.served.url)
-    yield Hand(page)
-    context.close()
-    assert not errors
-    ours = (f"{hockey.base}/", f"ws://{hockey.host}/", "blob:", "data:")
-    assert all(url.startswith(ours) for url in requested), requested
-
-
-@pytest.fixture
-def hand(opened: Hand) -> Hand:
-    """The person before that page, who has nothing in hand."""
-    page = opened.page
-    opened.wait("window.sgim && window.sgim.version() !== null")
-    page.set_viewport_size(VIEWPORT)
-    page.click("#tab-teach")
-    page.focus("#stage")
-    if not page.evaluate("window.sgim.control()"):
-        page.click("#control")
-    opened.in_control()
-    page.select_option("#tempo", "0.5")
-    page.focus("#stage")
-    if opened.state() != "practice":
-        page.keyboard.press("ArrowLeft")
-        opened.wait("window.sgim.state() === 'practice'")
-    return opened
-
-
-def letters(site: Site, hockey_path: Path) -> list[tuple[Any, ...]]:
-    with connect(hockey_path, "mode=ro") as db:
-        return db.execute("SELECT what, plan, name, detail FROM letters ORDER BY number").fetchall()
-
-
-def path_of(site: Site) -> Path:
-    return site.served.journals[0]
+from .browsing import VIEWPORT, Hand, letters, until
+from .conftest import TABLE, UPWARD, Site
 
 
 def test_the_token_leaves_the_address_and_scripts_cannot_read_the_cookie(hand: Hand) -> None:
@@ -145,7 +69,7 @@ def test_a_request_is_answered_with_what_was_drawn(hand: Hand, hockey: Site) -> 
     assert "you reached" in hand.assessed()
     hand.page.keyboard.press("ArrowRight")
     hand.wait_text("#letters", "sent")
-    (answer,) = [letter for letter in letters(hockey, path_of(hockey)) if letter[0] == "answer"]
+    (answer,) = [letter for letter in letters(hockey.journal) if letter[0] == "answer"]
     detail = json.loads(answer[3])
     assert answer[1] is not None
     assert answer[2] == "Ada"
@@ -176,39 +100,6 @@ def test_redo_and_trim_can_be_undone(hand: Hand) -> None:
     hand.page.keyboard.press("u")
     hand.wait("window.sgim.state() === 'assessed'")
     assert hand.page.inner_text("#worth") == first
-
-
-def test_a_take_survives_a_connection_that_breaks_in_its_middle(hand: Hand, hockey: Site) -> None:
-    hand.begin()
-    hand.drag(UPWARD[:7], lift=False)
-    hockey.cut()
-    hand.wait_text("#status", "connection is lost")
-    x, y = hand.tip()
-    for i in range(6):
-        hand.page.mouse.move(x + 4 * i, y - 8 * i)
-    hand.wait_text("#status", "Connected again")
-    hand.page.mouse.move(x + 30, y - 60)
-    hand.page.mouse.up()
-    worth = hand.assessed()
-    assert "lasts" in worth
-    taken = hand.page.evaluate("JSON.parse(localStorage.getItem('sgim.draft'))")
-    times = [row[0] for row in taken["samples"]]
-    assert times == sorted(times)
-    assert len(taken["raw"]) >= 12
-    assert len(taken["samples"]) >= len(taken["raw"])
-
-
-def test_a_page_that_is_closed_in_a_drag_teaches_nothing_and_keeps_the_take(
-    hand: Hand, hockey: Site
-) -> None:
-    before = len(letters(hockey, path_of(hockey)))
-    hand.begin()
-    hand.drag(UPWARD, lift=False)
-    hand.wait("localStorage.getItem('sgim.draft') !== null")
-    hand.page.reload()
-    hand.in_control()
-    hand.wait("window.sgim.state() === 'assessed'")
-    assert len(letters(hockey, path_of(hockey))) == before
 
 
 def test_a_second_browser_looks_on_until_the_first_gives_up(

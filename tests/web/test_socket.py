@@ -187,7 +187,10 @@ def test_control_is_kept_for_a_while_for_a_page_that_was_lost() -> None:
     pages.greet(again, "one", "one")
     assert pages.controls(again)
     pages.remove(again)
-    now += GRACE + 1
+    now += GRACE
+    pages.release()
+    said = [json.loads(two.queue.get_nowait() or "{}") for _ in range(two.queue.qsize())]
+    assert [role["holder"] for role in said[-2:]] == ["one", ""]
     assert pages.control(two, True)
 
 

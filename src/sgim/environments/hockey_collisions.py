@@ -109,42 +109,50 @@ def mallet_contacts(
 
     Returns:
         Times of contact, infinite where there is none, shape ``(n,)``; vectors from mallet to
-        puck at contact, shape ``(2, n)``; the mallets' velocities there, shape ``(2, n)``.
+        puck at contact, shape ``(2, n)``; the mallets' velocities there, shape ``(2, n)``. Where
+        there is none, the vectors mean nothing.
     """
-    x, y, vx, vy = pucks
+    begun = np.searchsorted(times, since, side="right") - 1
+    passed = int(begun.min())  # what lies before all flights is left out
+    now, times, mallets = begun - passed, times[passed:], mallets[:, :, passed:]
     rows = np.arange(len(since))
-    now = np.searchsorted(times, since, side="right") - 1
+    places, velocities = pucks[:2], pucks[2:]
     # The mallet seen from the puck, at the samples and, in place of the one before it, now.
-    ahead = times - since[:, None]
-    dx = x[:, None] + vx[:, None] * ahead - mallets[0]
-    dy = y[:, None] + vy[:, None] * ahead - mallets[1]
+    seen = places[:, :, None] + velocities[:, :, None] * (times - since[:, None]) - mallets
     part = (since - times[now]) / (times[now + 1] - times[now])
     here = mallets[:, rows, now]
-    here = here + part * (mallets[:, rows, now + 1] - here)
-    dx[rows, now] = x - here[0]
-    dy[rows, now] = y - here[1]
-    wx, wy = np.diff(dx), np.diff(dy)
-    gaps = dx * dx + dy * dy - radius * radius
-    closing = dx[:, :-1] * wx + dy[:, :-1] * wy
-    squares = wx * wx + wy * wy
+    seen[:, rows, now] = places - (here + part * (mallets[:, rows, now + 1] - here))
+    moved = seen[:, :, 1:] - seen[:, :, :-1]
+    gaps = _dot(seen, seen) - radius * radius
+    closing = _dot(seen[:, :, :-1], moved)
+    squares = _dot(moved, moved)
     under_root = closing * closing - squares * gaps[:, :-1]
-    outside = gaps[:, :-1] >= -_ROUNDING
-    meets = outside & (closing < 0) & (under_root >= 0)
+    meets = under_root >= 0
+    meets &= closing < 0
+    meets &= gaps[:, :-1] >= -_ROUNDING
     meets &= (-closing <= squares) | (gaps[:, 1:] <= 0)
-    meets &= np.arange(len(times) - 1) >= now[:, None]
+    if now.any():
+        meets &= np.arange(len(times) - 1) >= now[:, None]
     first = meets.argmax(axis=1)
-    at = (rows, first)
-    found = meets[at]
-    # Where nothing is met the numbers below mean nothing, and are replaced.
-    square = np.where(found, squares[at], 1.0)
-    root = np.sqrt(np.where(found, under_root[at], 0.0))
-    share = np.maximum((-closing[at] - root) / square, 0.0)
-    begin = np.where(first == now, since, times[first])
-    when = np.where(found, begin + share * (times[first + 1] - begin), np.inf)
-    apart = np.stack([dx[at] + share * wx[at], dy[at] + share * wy[at]])
-    step = times[first + 1] - times[first]
-    moved = mallets[:, rows, first + 1] - mallets[:, rows, first]
-    return when, apart, moved / step
+    when, apart, mallet_velocities = np.full(len(rows), np.inf), places.copy(), 0.0 * places
+    met = np.flatnonzero(meets[rows, first])
+    if len(met):
+        step = first[met]
+        at = (met, step)
+        share = np.maximum((-closing[at] - np.sqrt(under_root[at])) / squares[at], 0.0)
+        begin = np.where(step == now[met], since[met], times[step])
+        when[met] = begin + share * (times[step + 1] - begin)
+        apart[:, met] = seen[:, met, step] + share * moved[:, met, step]
+        strides = mallets[:, met, step + 1] - mallets[:, met, step]
+        mallet_velocities[:, met] = strides / (times[step + 1] - times[step])
+    return when, apart, mallet_velocities
+
+
+def _dot(a: FloatArray, b: FloatArray) -> FloatArray:
+    """Scalar products of vectors along the first axis, which has a length of 2."""
+    products = a * b
+    total: FloatArray = products[0] + products[1]
+    return total
 
 
 def _entry(dx: float, dy: float, vx: float, vy: float, radius: float) -> float:

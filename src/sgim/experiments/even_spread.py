@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 
 import numpy as np
@@ -38,7 +39,10 @@ def by_tile(landings: FloatArray, count: int) -> list[list[int]]:
 
 
 def mean_miss(
-    executions: Sequence[Callable[[], Outcome]], landing: FloatArray, kind: str = "float"
+    executions: Sequence[Callable[[], Outcome]],
+    landing: FloatArray,
+    kind: str = "float",
+    least: float = math.inf,
 ) -> float:
     """How far repeated movements land from where the first did, in the outcome's unit.
 
@@ -46,12 +50,16 @@ def mean_miss(
         executions: Each executes the movement once; one that does not land, or fails, misses by 1.
         landing: Where it should land.
         kind: Kind of the outcome.
+        least: A mean that is not worth knowing, nor any greater one: the answer is infinite as
+            soon as it must be as great as that, and the other executions are left out.
     """
-    distances = []
+    total = 0.0
     for execute in executions:
         try:
             repeated = execute().get(kind)
         except SgimError:
             repeated = None
-        distances.append(1.0 if repeated is None else float(np.linalg.norm(repeated - landing)))
-    return float(np.mean(distances))
+        total += 1.0 if repeated is None else float(np.linalg.norm(repeated - landing))
+        if total >= least * len(executions):
+            return math.inf
+    return total / len(executions)

@@ -3,16 +3,18 @@
 Run it as ``python -m sgim.experiments.make_fishing_kinaesthetic``, or with ``fishing-floor`` behind
 it for the world with a floor.
 There is no person at hand who leads the arm. Instead, minimum-jerk movements are searched whose
-landings spread evenly over what can be reached. Fragile movements make bad demonstrations, so in
-each tile those are kept and varied that land closest to where they should when they are repeated
-with noise; at the end, one of them is chosen by more repetitions, in the full model too.
+landings spread evenly over what can be reached. As on the page where a person teaches, each is
+mapped to the robot's primitive and replayed by the robot, and accepted or done again: in each tile
+those are kept and varied whose replays with noise land closest to where the arm that was led had
+landed; at the end, one of them is chosen by more replays, in the full model too.
 """
 
 from __future__ import annotations
 
+import math
 import sys
 from collections import defaultdict
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -22,26 +24,32 @@ import numpy as np
 from sgim import environments
 from sgim.environments.fishing import FishingFloor, FishingRod
 from sgim.environments.fishing.demonstrators import FLOOR_RECORDINGS, RECORDINGS, write_recordings
-from sgim.environments.fishing.floor import DURATION
-from sgim.environments.fishing.movement import AMPLITUDES, HOME
-from sgim.environments.fishing.reaching import reaching
+from sgim.environments.fishing.floor import DURATION, MOVEMENTS
+from sgim.environments.fishing.movement import AMPLITUDES, FISHING, HOME
+from sgim.environments.fishing.reaching import MIRROR, reaching
 from sgim.environments.fishing.rig import Rig
 from sgim.errors import SgimError
 from sgim.experiments.even_spread import by_tile, mean_miss
-from sgim.records import Demonstration, Outcome, Trajectory
+from sgim.primitives import ViaPoints
+from sgim.records import Demonstration, Trajectory
 from sgim.spaces import FloatArray
 from sgim.streams import Streams
 
 SEVERAL = 4
 """Movements kept in each tile during the search."""
 
-DOUBTED = 8
-"""How often a movement is repeated that would be kept after two repetitions: they may be lucky."""
+REPLAYS = 8
+"""How often a movement is replayed before it is kept."""
 
-# The thesis's primitive gets no further than this share of its amplitudes at the end.
-REACH = 0.88
-# How far a movement is varied, as a share of the amplitudes and in s.
-_VARIATION = 0.1
+# Shares of the movements tried that are drawn anew, and that mirror one kept.
+_NEW = 0.1
+_MIRRORED = 0.1
+# How far a movement is varied, as a share of the amplitudes and of the duration.
+_LEAST_VARIATION = 0.01
+_GREATEST_VARIATION = 0.2
+
+Kept = dict[tuple[int, int], list[tuple[float, "Candidate"]]]
+"""Tile → how far replays miss, and the movement, the best first."""
 
 
 @dataclass(frozen=True)
@@ -49,16 +57,19 @@ class Search:
     """What is looked for, and where.
 
     Attributes:
-        still: The world without noise.
-        repeating: Worlds with noise by which one of several movements is chosen; the first is
+        still: The world without noise, where the arm is led.
+        primitive: What the robot maps a recording to.
+        replaying: Worlds with noise, by which one of several movements is chosen; the first is
             that of the search.
-        repetitions: How often a movement is repeated in each of them to choose.
+        replays: How often a movement is replayed in each of them to choose.
         kind: Kind of the outcome.
         low: Lower bounds of the outcomes wanted, in both coordinates.
         high: Upper bounds.
         grid: Tiles along each side during the search.
-        shortest: Least duration of a movement in s.
-        longest: Greatest duration in s.
+        quickest: Least duration of a movement in s.
+        slowest: Greatest duration in s.
+        recorded: What a recording lasts at least, in s; after a quicker movement the arm is held
+            still.
         count: How many demonstrations to choose.
         movements: How many movements to try.
         seed: Of the search.
@@ -66,14 +77,16 @@ class Search:
     """
 
     still: Rig
-    repeating: tuple[Rig, ...]
-    repetitions: tuple[int, ...]
+    primitive: ViaPoints
+    replaying: tuple[Rig, ...]
+    replays: tuple[int, ...]
     kind: str
     low: float
     high: float
     grid: int
-    shortest: float
-    longest: float
+    quickest: float
+    slowest: float
+    recorded: float
     count: int
     movements: int
     seed: int
@@ -83,21 +96,27 @@ class Search:
         """Where outcomes lie in the box wanted, as shares of its sides."""
         return (outcomes - self.low) / (self.high - self.low)
 
+    def recording(self, end: FloatArray, duration: float) -> Trajectory:
+        """The movement to a posture, given as shares of the amplitudes away from home."""
+        return reaching(HOME + end * AMPLITUDES, duration, self.recorded)
+
 
 def rod_search() -> Search:
     """For the fishing rod: 127 landings, as the thesis has."""
     return Search(
         FishingRod(0.0),
+        FISHING,
         (FishingRod(), FishingRod(fast=False)),
-        (8, 2),
+        (24, 4),
         kind="float",
         low=-1.0,
         high=1.0,
         grid=13,
-        shortest=0.8,
-        longest=3.0,
+        quickest=0.4,
+        slowest=3.0,
+        recorded=0.8,
         count=127,
-        movements=60_000,
+        movements=27_500,
         seed=4000,
         file=RECORDINGS,
     )
@@ -107,14 +126,16 @@ def floor_search() -> Search:
     """For the floor: places spread over the camera's view."""
     return Search(
         FishingFloor(0.0),
+        MOVEMENTS,
         (FishingFloor(),),
         (6,),
         kind="ball",
         low=0.0,
         high=1.0,
         grid=6,
-        shortest=DURATION,
-        longest=DURATION,
+        quickest=DURATION,
+        slowest=DURATION,
+        recorded=DURATION,
         count=30,
         movements=1000,
         seed=4001,
@@ -124,103 +145,118 @@ def floor_search() -> Search:
 
 @dataclass(frozen=True, eq=False)
 class Candidate:
-    """A movement and where it lands.
+    """A movement that was led, and where it lands.
 
     Attributes:
         end: Its last posture as shares of the amplitudes away from home, shape ``(6,)``.
         duration: In s.
+        recording: The movement as it is recorded.
+        copy: The policy that the robot maps it to.
         landing: Shape ``(2,)``, in the outcome's unit.
     """
 
     end: FloatArray
     duration: float
+    recording: Trajectory
+    copy: FloatArray
     landing: FloatArray
-
-    @property
-    def recording(self) -> Trajectory:
-        """The movement as it is recorded."""
-        return reaching(HOME + self.end * AMPLITUDES, self.duration)
 
 
 def search(sought: Search, rng: np.random.Generator, movements: int) -> list[Candidate]:
-    """Movements with outcomes wanted, a few in each tile, those that repeat best so far.
-
-    Each is made without noise, and twice with it, or more often before it is kept; new ones vary
-    those that were kept.
-    """
-    noisy = sought.repeating[:1]
-    kept: defaultdict[tuple[int, int], list[tuple[float, Candidate]]] = defaultdict(list)
-    for number in range(movements):
-        if not kept or number < movements / 10 or rng.random() < 0.1:
-            end = rng.uniform(-REACH, REACH, 6)
-            duration = rng.uniform(sought.shortest, sought.longest)
-        else:
-            # Of some tiles, the one whose best movement repeats worst.
-            names = list(kept)
-            drawn = [names[i] for i in rng.choice(len(names), size=3)]
-            worst = kept[max(drawn, key=lambda name: kept[name][0][0])]
-            near = worst[int(rng.integers(len(worst)))][1]
-            end = np.clip(near.end + _VARIATION * rng.standard_normal(6), -REACH, REACH)
-            varied = near.duration + _VARIATION * rng.standard_normal()
-            duration = float(np.clip(varied, sought.shortest, sought.longest))
-        try:
-            outcome = sought.still.follow(reaching(HOME + end * AMPLITUDES, duration))
-        except SgimError:
+    """Movements with outcomes wanted, a few in each tile, those that replay best so far."""
+    kept: Kept = defaultdict(list)
+    for _ in range(movements):
+        fresh = not kept or rng.random() < _NEW
+        candidate = led(sought, *(_new(sought, rng) if fresh else _varied(sought, kept, rng)))
+        if candidate is None:
             continue
-        if sought.kind not in outcome:
-            continue
-        shares = sought.shares(outcome[sought.kind])
-        if not ((shares > 0) & (shares < 1)).all():
-            continue
-        candidate = Candidate(end, duration, outcome[sought.kind])
-        column, row = np.floor(shares * sought.grid).astype(int).tolist()
+        column, row = np.floor(sought.shares(candidate.landing) * sought.grid).astype(int).tolist()
         tile = kept[column, row]
-        missed = miss(sought.kind, candidate, noisy, [2], rng)
-        if len(tile) < SEVERAL or missed < tile[-1][0]:
-            more = miss(sought.kind, candidate, noisy, [DOUBTED - 2], rng)
-            missed += (more - missed) * (DOUBTED - 2) / DOUBTED
+        worst = tile[-1][0] if len(tile) == SEVERAL else math.inf
+        missed = miss(sought, candidate, (REPLAYS,), worst, rng)
+        if len(tile) < SEVERAL or missed < worst:
             tile.append((missed, candidate))
             tile.sort(key=lambda pair: pair[0])
             del tile[SEVERAL:]
     return [candidate for tile in kept.values() for _, candidate in tile]
 
 
-def most_repeatable(
-    sought: Search, found: Sequence[Candidate], rng: np.random.Generator
-) -> list[tuple[float, Candidate]]:
-    """For each tile, the candidate that misses least when it is repeated, and by how much."""
-    shares = sought.shares(np.array([candidate.landing for candidate in found]))
-    chosen = []
-    for tile in by_tile(2 * shares - 1, sought.count):
-        misses = [
-            miss(sought.kind, found[i], sought.repeating, sought.repetitions, rng) for i in tile
-        ]
-        best = int(np.argmin(misses))
-        chosen.append((misses[best], found[tile[best]]))
-    return chosen
+def led(sought: Search, end: FloatArray, duration: float) -> Candidate | None:
+    """A movement without noise, if what comes of it is wanted."""
+    recording = sought.recording(end, duration)
+    try:
+        outcome = sought.still.follow(recording)
+    except SgimError:
+        return None
+    if sought.kind not in outcome:
+        return None
+    shares = sought.shares(outcome[sought.kind])
+    if not ((shares > 0) & (shares < 1)).all():
+        return None
+    copy, _ = sought.primitive.fit(recording)
+    return Candidate(end, duration, recording, copy, outcome[sought.kind])
 
 
 def miss(
-    kind: str,
+    sought: Search,
     candidate: Candidate,
-    worlds: Sequence[Rig],
     often: Sequence[int],
+    least: float,
     rng: np.random.Generator,
 ) -> float:
-    """How far a candidate lands from where it should, in the mean over repetitions.
+    """How far replays with noise land from where the arm that was led did, in the mean.
 
     Args:
-        kind: Kind of the outcome.
+        sought: Where to replay.
         candidate: The movement.
-        worlds: Where it is repeated.
-        often: How often in each of them.
-        rng: For their noise.
+        often: How often in each of the worlds.
+        least: What need not be told apart from infinity, nor anything greater.
+        rng: For the noise.
     """
-    recording = candidate.recording
-    executions: list[Callable[[], Outcome]] = []
-    for world, count in zip(worlds, often, strict=True):
-        executions += [partial(world.follow, recording, rng)] * count
-    return mean_miss(executions, candidate.landing, kind)
+    executions = [
+        partial(world.execute, candidate.copy, None, rng)
+        for world, count in zip(sought.replaying, often, strict=False)
+        for _ in range(count)
+    ]
+    return mean_miss(executions, candidate.landing, sought.kind, least)
+
+
+def most_repeatable(
+    sought: Search, found: Sequence[Candidate], rng: np.random.Generator
+) -> list[tuple[float, Candidate]]:
+    """For each tile, the candidate whose replays miss least, and by how much."""
+    shares = sought.shares(np.array([candidate.landing for candidate in found]))
+    chosen = []
+    for tile in by_tile(2 * shares - 1, sought.count):
+        least, best = math.inf, found[tile[0]]
+        for candidate in (found[i] for i in tile):
+            missed = miss(sought, candidate, sought.replays, least, rng)
+            if missed < least:
+                least, best = missed, candidate
+        chosen.append((least, best))
+    return chosen
+
+
+def _new(sought: Search, rng: np.random.Generator) -> tuple[FloatArray, float]:
+    """An end and a duration drawn at random; short ones are as frequent as long ones."""
+    slowest = math.log(sought.slowest / sought.quickest)
+    return rng.uniform(-1.0, 1.0, 6), sought.quickest * math.exp(slowest * rng.random())
+
+
+def _varied(sought: Search, kept: Kept, rng: np.random.Generator) -> tuple[FloatArray, float]:
+    """An end and a duration near those of a movement kept, in any tile or in a bad one."""
+    names = list(kept)
+    drawn = [names[i] for i in rng.choice(len(names), size=3)]
+    name = drawn[0] if rng.random() < 0.5 else max(drawn, key=lambda name: kept[name][0][0])
+    near = kept[name][int(rng.integers(len(kept[name])))][1]
+    end = near.end * (MIRROR if rng.random() < _MIRRORED else 1.0)
+    far = math.log(_GREATEST_VARIATION / _LEAST_VARIATION)
+    far = _LEAST_VARIATION * math.exp(far * rng.random())
+    varied = near.duration * math.exp(far * rng.standard_normal())
+    return (
+        np.clip(end + far * rng.standard_normal(6), -1.0, 1.0),
+        float(np.clip(varied, sought.quickest, sought.slowest)),
+    )
 
 
 def main(sought: Search, folder: Path) -> None:
@@ -231,7 +267,7 @@ def main(sought: Search, folder: Path) -> None:
     chosen = most_repeatable(sought, found, streams("repeat"))
     kept = sorted(chosen, key=lambda pair: pair[0])[: sought.count]
     misses = np.array([miss for miss, _ in kept])
-    print(f"{len(chosen)} tiles, {len(kept)} kept; repeated they miss by {misses.mean():.3f}")
+    print(f"{len(chosen)} tiles, {len(kept)} kept; replayed they miss by {misses.mean():.3f}")
     shown = [
         Demonstration({sought.kind: candidate.landing}, trajectory=candidate.recording)
         for _, candidate in sorted(kept, key=lambda pair: pair[1].landing.tolist())

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 LEARNERS = tuple(VOCAL.learners)
+CONFIGURATIONS = ("modern", "thesis")
 
 
 def _classes(runs: Sequence[RecordedRun], /) -> Figure:
@@ -37,7 +38,7 @@ REPRODUCTION = Reproduction(
         "outcome. Learners explore alone, with or without regard to their progress, or amid one "
         "of three ambient languages, whose sounds they may emulate."
     ),
-    parts=(Part(("vocal",), LEARNERS, ()),),
+    parts=(Part(("vocal",), LEARNERS, (), CONFIGURATIONS),),
     chapters=(VOCAL,),
     drawings=(
         errors("errors", "Errors over the sounds of the benchmark"),

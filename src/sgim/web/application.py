@@ -23,7 +23,7 @@ from sgim.web.conversation import Conversation
 from sgim.web.flood import Allowance
 from sgim.web.lesson import Lesson
 from sgim.web.messages import MessageError, parse
-from sgim.web.pages import Page, Pages
+from sgim.web.pages import GRACE, Page, Pages
 from sgim.web.watching import Watched
 
 _LOG = logging.getLogger("sgim.web")
@@ -116,6 +116,7 @@ class Site:
             pass
         finally:
             self.pages.remove(page)
+            asyncio.get_running_loop().call_later(GRACE + 0.1, self.pages.release)
             sender.cancel()
             with suppress(asyncio.CancelledError, Exception):
                 await sender

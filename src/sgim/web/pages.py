@@ -91,15 +91,21 @@ class Pages:
         """
         if not page.name:
             return False
+        self.release()
         if take and not self.controls(page):
-            gone = self._left is not None and self._clock() - self._left > GRACE
-            if self._holder and not gone:
+            if self._holder:
                 return False
             self._holder, self._person, self._left = page.name, page.person, None
         elif not take and self.controls(page):
             self._holder, self._person, self._left = "", "", None
         self.tell_roles()
         return True
+
+    def release(self) -> None:
+        """Take control from a page that has not come again within its time, and tell the others."""
+        if self._left is not None and self._clock() - self._left >= GRACE:
+            self._holder, self._person, self._left = "", "", None
+            self.tell_roles()
 
     def tell_all(self, message: FromServer) -> None:
         """Send a message to all pages that have said hello."""

@@ -54,7 +54,7 @@ def test_kinaesthetic_demonstrations_are_smooth_recordings_of_one_shape() -> Non
         np.testing.assert_allclose(recording.positions[0], HOME, atol=1e-6)
         assert 0.8 <= recording.times[-1] <= 3.0
         moved = recording.positions[-1] - HOME
-        assert (np.abs(moved) <= AMPLITUDES).all()
+        assert (np.abs(moved) <= AMPLITUDES + 1e-6).all()
         shares = (recording.positions - HOME) / moved
         assert (np.diff(shares, axis=0) > -1e-4).all()
         np.testing.assert_allclose(shares, shares[:, :1].repeat(6, axis=1), atol=1e-3)
@@ -67,14 +67,22 @@ def test_a_kinaesthetic_demonstration_led_again_lands_where_it_did() -> None:
         np.testing.assert_allclose(again, shown.outcome["float"], atol=1e-3)
 
 
-def test_recorded_movements_are_fitted_within_a_degree_and_land_near() -> None:
-    misses = []
-    for shown in fishing_demonstrations(3)[::8]:
+def test_what_the_robot_makes_of_recordings_lands_where_they_did_and_repeats() -> None:
+    rng = np.random.default_rng(0)
+    residuals, still, usual = [], [], []
+    for shown in fishing_demonstrations(3)[::6]:
         policy, residual = FISHING.fit(shown.trajectory)  # type: ignore[arg-type]
-        assert np.degrees(residual) < 1
-        landing = STILL.execute(policy).get("float", np.full(2, np.inf))
-        misses.append(np.linalg.norm(landing - shown.outcome["float"]))
-    assert np.median(misses) < 0.12
+        residuals.append(np.degrees(residual))
+        for outcome, misses in (
+            (STILL.execute(policy), still),
+            (USUAL.execute(policy, None, rng), usual),
+        ):
+            landing = outcome.get("float", np.full(2, np.inf))
+            misses.append(np.linalg.norm(landing - shown.outcome["float"]))
+    assert max(residuals) < 4
+    assert np.median(residuals) < 1
+    assert np.median(still) < 0.03
+    assert np.median(usual) < 0.05
 
 
 def repeated(demonstrator: int) -> float:
@@ -96,7 +104,7 @@ def repeated(demonstrator: int) -> float:
 def test_what_is_shown_can_be_repeated_and_best_what_was_chosen_for_it() -> None:
     random, reliable, kinaesthetic = (repeated(demonstrator) for demonstrator in (1, 2, 3))
     assert reliable < random < 0.1
-    assert kinaesthetic < 0.15
+    assert kinaesthetic < 0.06
 
 
 def test_demonstrators_4_and_5_share_out_what_3_shows() -> None:
@@ -105,6 +113,13 @@ def test_demonstrators_4_and_5_share_out_what_3_shows() -> None:
     assert (ahead[:, 1] >= 0).all()
     assert len(behind) + len(ahead) == 127
     assert min(len(behind), len(ahead)) > 25
+
+
+def test_demonstrator_3_covers_the_disc_that_it_can_lead_the_float_to() -> None:
+    landings = landings_of(3)
+    assert landings.min(axis=0).max() < -0.9
+    assert landings[:, 0].max() > 0.9
+    assert landings[:, 1].max() > 0.5
 
 
 @pytest.mark.parametrize("demonstrator", DEMONSTRATORS)
