@@ -78,8 +78,8 @@ class LocalModel:
             outcomes, inputs = taken(memory, slice(0, count))
             found = learned(inputs, outcomes)
             if found is not None:
-                always = int(memory.trials.rows[count - 1]) == count - 1
-                found = replace(found, always=always)
+                tried = int(memory.trials.rows[count - 1]) + 1
+                found = replace(found, produced=count / tried)
             known = self._learned[memory] = count, found
         return known[1]
 

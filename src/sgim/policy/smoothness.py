@@ -29,6 +29,7 @@ _ENOUGH = 256  # Trials: with fewer, a few jumps of outcomes may look like noise
 _MAPPED = (0.8, 0.6)  # and more of the differences must be explained for a map to be used.
 _CLEAR = 0.01  # But noise of at most this share of the signal is not what jumps look like: then
 _MAPPED_CLEARLY = 0.4  # less will do.
+_USUALLY = 0.85  # Of the policies tried produced an outcome, for a map to be used.
 _NEARLY_ALL = 0.95  # Of the differences explained for a map to be used where there is no noise.
 _DROWNED = 0.2  # Noise over the signal that hides the map.
 _LEAST_NOISE = 1e-8  # What rounding needs.
@@ -50,8 +51,8 @@ class Smoothness:
         explained: Share of the differences between a neighbourhood's outcomes that is foreseen
             when each is left out, noise not counted where it is known; the median neighbourhood's.
         trials: From how many trials it was learned.
-        always: Whether every policy tried by then produced such an outcome: a map knows nothing of
-            policies that do not.
+        produced: Share of all policies tried by then that produced such an outcome: a map knows
+            nothing of those that did not.
     """
 
     metric: FloatArray
@@ -61,7 +62,7 @@ class Smoothness:
     evidence: float
     explained: float
     trials: int
-    always: bool = True
+    produced: float = 1.0
 
     @property
     def enough(self) -> bool:
@@ -90,11 +91,11 @@ class Smoothness:
     @property
     def mapped(self) -> bool:
         """Whether it foresees enough for its map to be used."""
-        if self.drowned:
+        if self.drowned or self.produced < _USUALLY:
             return False
         if self.noiseless:  # A step must come nearer than what can be repeated exactly.
-            return self.always and self.explained > _NEARLY_ALL
-        clear = self.always and self.evidence > _DECISIVE and self.noise <= _CLEAR
+            return self.produced == 1 and self.explained > _NEARLY_ALL
+        clear = self.produced == 1 and self.evidence > _DECISIVE and self.noise <= _CLEAR
         least = _MAPPED_CLEARLY if clear and not self.enough else _MAPPED[self.enough]
         return self.explained > least
 
