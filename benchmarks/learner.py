@@ -1,10 +1,10 @@
 """Time a learner's movements: alone, in batches, as memory grows, and how much it needs.
 
 Run it as ``python benchmarks/learner.py``; ``--long`` adds the 100 000 movements and
-``--memory`` a million trials. Times are per movement, all in: deciding, simulating, learning,
-the journal, and the evaluations. They are printed beside a fixed loop of small NumPy operations
-timed in the same process, so that machines can be compared by the ratio. Random policies cost
-nothing to decide, so that their time is that of the bookkeeping.
+``--memory`` a million trials. Times are per movement, all in: deciding, simulating, learning and
+the journal; the evaluations too with ``--evaluations``. They are printed beside a fixed loop of
+small NumPy operations timed in the same process, so that machines can be compared by the ratio.
+Random policies cost nothing to decide, so that their time is that of the bookkeeping.
 """
 
 from __future__ import annotations
@@ -33,6 +33,7 @@ def main() -> None:
     parser.add_argument("--configuration", default="modern")
     parser.add_argument("--movements", type=int, default=8000)
     parser.add_argument("--repeats", type=int, default=5)
+    parser.add_argument("--evaluations", action="store_true", help="count the evaluations, too")
     parser.add_argument("--long", action="store_true", help="also the cost at 100 000 movements")
     parser.add_argument("--memory", action="store_true", help="also a million remembered trials")
     options = parser.parse_args()
@@ -91,6 +92,8 @@ def run(throwing, options, name: str, batch: int) -> float:
     with tempfile.TemporaryDirectory() as folder:
         learner = throwing.learner(name, configuration=options.configuration)
         with throwing.run(learner, Path(folder) / "run.sgim", batch=batch) as going:
+            if not options.evaluations:
+                going.benchmark = None
             start = time.process_time()
             going.go(options.movements)
             return (time.process_time() - start) / options.movements * 1e6

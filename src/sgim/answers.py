@@ -63,6 +63,16 @@ class Answers:
         goal = self.task.check_goal(kind, point)
         return self._inverse.solve(goal, self.task.check_context(context), radius)
 
+    def declare_deterministic(self) -> None:
+        """Rely on it that a policy always has the outcome that it had: the world says so.
+
+        A `Run` says it for worlds that are ``deterministic``. Otherwise whether there is noise is
+        told from the trials, where jumps may look like it. What is learned does not change, but
+        answers do: see `LocalModel`.
+        """
+        if isinstance(self.model, NearestModel):
+            self.model.memory.declare_deterministic()
+
     def by(self, way: str | Answering) -> Repertoire:
         """The same repertoire, asked in another way of answering; the memory is shared.
 

@@ -183,6 +183,12 @@ class Box:
         """Draw uniformly between the bounds."""
         return self.low + self._width * rng.random(self._shape[0])
 
+    def sample_all(self, rngs: Sequence[np.random.Generator]) -> FloatArray:
+        """As `sample` for each of several generators, one or more: ``(n, d)``."""
+        d = self._shape[0]
+        drawn: FloatArray = self.low + self._width * np.array([rng.random(d) for rng in rngs])
+        return drawn
+
     def encode(self, point: FloatArray) -> FloatArray:
         """Scale to the unit box; also for arrays of shape ``(..., d)``."""
         scaled: FloatArray = (point - self.low) / self.range
@@ -190,7 +196,7 @@ class Box:
 
     def encoded(self, point: FloatArray) -> list[float]:
         """As `encode`, in plain numbers: faster for one point of few coordinates."""
-        numbers = zip(point.tolist(), self._lows, self._ranges, strict=True)
+        numbers = zip(point.tolist(), self._lows, self._ranges)  # noqa: B905 - a hot path
         return [(x - low) / width for x, low, width in numbers]
 
     def decode(self, vector: FloatArray) -> FloatArray:

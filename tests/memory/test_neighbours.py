@@ -138,6 +138,21 @@ def test_the_default_layout_equals_brute_force_beyond_its_buffer(dimension, deci
             assert_equals_brute_force(neighbours, points, query, k)
 
 
+@pytest.mark.parametrize("dimension", [1, 2])
+def test_the_newest_are_found_by_many_who_ask_for_one_each(dimension):
+    rng = np.random.default_rng(2)
+    neighbours, points = NearestNeighbours(dimension), np.empty((0, dimension))
+    for added in (100, 400, 30, 300, 9000, 30, 2000, 100):
+        points = np.concatenate((points, rng.random((added, dimension)).round(2)))
+        neighbours.extend(points[-added:])
+        queries = np.concatenate((points[-4:], rng.random((20, dimension))))
+        expected = [all_by_distance(points, query) for query in queries]
+        nearest = np.array([distances[:1] for distances, _ in expected])
+        rows = np.array([order[:1] for _, order in expected])
+        assert_same((neighbours.gaps(queries),), (nearest[:, 0],))
+        assert_same(neighbours.query_batch(queries, 1), (nearest, rows))
+
+
 @pytest.mark.parametrize("buffer_size", [1, 100, 200_000])
 def test_very_many_identical_points_are_found_in_order_of_insertion(buffer_size):
     points = np.full((100_000, 2), 0.25)

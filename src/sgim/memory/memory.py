@@ -20,12 +20,13 @@ IntArray = NDArray[np.int64]
 class PointColumn:
     """The points of one space, in order: rows of numbers for a box, objects for other spaces."""
 
-    __slots__ = ("_box", "_objects", "_vectors", "space")
+    __slots__ = ("_box", "_objects", "_scaled", "_vectors", "space")
 
     def __init__(self, space: Space) -> None:
         self.space = space
         self._box = space if isinstance(space, Box) else None
         self._vectors = Column(space.dimension or 0, np.float64) if self._box else None
+        self._scaled: Column[np.float64] | None = None  # made when scaled points are asked for
         self._objects: list[Any] = []
 
     def append(self, point: Any) -> None:
@@ -53,13 +54,12 @@ class PointColumn:
     def encoded(self, rows: IntArray | slice) -> FloatArray:
         """Points of these rows scaled to the unit box, shape ``(..., dimension)``."""
         if self._box is not None and self._vectors is not None:
-            points = self._vectors.rows
-            if isinstance(rows, slice):
-                return self._box.encode(points[rows])
-            some: FloatArray = points.take(rows, axis=0)
-            some -= self._box.low  # as the box encodes, without room for copies
-            some /= self._box.range
-            return some
+            if self._scaled is None:
+                self._scaled = Column(self._box.dimension, np.float64)
+            if (known := len(self._scaled)) < len(self._vectors):
+                self._scaled.extend(self._box.encode(self._vectors.rows[known:]))
+            points = self._scaled.rows
+            return points[rows].copy() if isinstance(rows, slice) else points.take(rows, axis=0)
         chosen = (
             self._objects[rows] if isinstance(rows, slice) else [self._objects[i] for i in rows]
         )
@@ -80,6 +80,9 @@ class KindMemory:
         outcome_space: The kind's space.
         context_space: The task's context space, or None.
         policies: The memory's column of policies, for neighbours in policy space.
+
+    Attributes:
+        deterministic: Whether it is known that a policy always has the outcome that it had.
     """
 
     def __init__(
@@ -94,6 +97,7 @@ class KindMemory:
         context_dimension = (context_space.dimension or 0) if context_space else 0
         self.keys = Column((self.dimension or 0) + context_dimension, np.float64)
         self._index = NearestNeighbours(max(1, self.keys.width))
+        self.deterministic = False
         self._policies = policies
         self._policy_index: NearestNeighbours | None = None
 
@@ -158,6 +162,32 @@ class KindMemory:
             index.extend(self.encoded_policies(slice(len(index), len(self))))
         return index.query(policy, k)
 
+    def chance_of_failing(self, policies: FloatArray, k: int) -> FloatArray:
+        """The chance that policies do not produce this kind, by what the most alike trials did.
+
+        It is Laplace's rule of succession, (failures + 1)/(trials + 2): over the k most alike of
+        all trials, or over all of them if none ever failed.
+
+        Args:
+            policies: Scaled to the unit box, shape ``(m, n)``.
+            k: How many trials to look at.
+
+        Returns:
+            Chances, shape ``(m,)``.
+        """
+        everything = self._policies.encoded(slice(None))
+        if len(everything) == len(self):
+            return np.full(len(policies), 1 / (len(self) + 2))
+        failed = np.ones(len(everything), dtype=bool)
+        failed[self.trials.rows] = False
+        norms, k = np.einsum("ij,ij->i", everything, everything), min(k, len(everything))
+        failures = []
+        for policy in policies:
+            apart = norms - 2 * (everything @ policy)  # but for a constant
+            failures.append(failed[np.argpartition(apart, k - 1)[:k]].sum())
+        chances: FloatArray = (np.array(failures) + 1) / (k + 2)
+        return chances
+
     def encoded_policies(self, rows: IntArray | slice) -> FloatArray:
         """The policies of these rows scaled to the unit box, shape ``(..., policy dimension)``."""
         trials = self.trials.rows
@@ -190,6 +220,11 @@ class Memory:
 
     def __len__(self) -> int:
         return self._length
+
+    def declare_deterministic(self) -> None:
+        """Know from now on that a policy always has the outcome that it had."""
+        for memory in self.kinds.values():
+            memory.deterministic = True
 
     def add(self, trial: Trial) -> int:
         """Remember a checked trial; returns its number."""

@@ -107,7 +107,7 @@ class NearestNeighbours:
             buffer_size = max(1024, 16384 // dimension)
         self._count = self._in_trees = 0
         self._trees: list[Tree] = []  # Over consecutive ranges of indices.
-        self._newest: Tree | None = None  # Over the newest, where many asked for one each.
+        self._newest: Tree | None = None  # Over most of the newest, where many asked for one each.
         self._storage: FloatArray = np.zeros((64, dimension))
         # The newest points again, a row per coordinate: contiguous for brute force.
         self._buffer: FloatArray = np.empty((dimension, _at_least_one("buffer_size", buffer_size)))
@@ -163,7 +163,7 @@ class NearestNeighbours:
                 np.array([one for _, one in found], dtype=np.intp).reshape(shape),
             )
         if k == 1:
-            trees = self._all_trees()
+            trees = self._more_trees()
         else:
             self._settle()
             trees = self._trees
@@ -171,11 +171,9 @@ class NearestNeighbours:
         distances, indices = self._together(checked, trees, answers, k)
         # A tree whose answer ends within reach may hide points as near as the k-th.
         reach = distances[:, -1] * _SLACK + _TINY
-        doubtful = np.zeros(len(checked), dtype=np.bool_)
         for _, horizon in answers:
-            doubtful |= horizon <= reach
-        for i in np.flatnonzero(doubtful).tolist():
-            distances[i], indices[i] = self.query(checked[i], k)
+            for i in np.flatnonzero(horizon <= reach).tolist():
+                distances[i], indices[i] = self.query(checked[i], k)
         return distances, indices
 
     def _together(
@@ -186,20 +184,23 @@ class NearestNeighbours:
         parts = parts or [np.empty((len(points), 0), dtype=np.intp)]
         found = parts[0] if len(parts) == 1 else np.concatenate(parts, axis=1)
         squares = self._squares(found, points)
-        if not trees or trees[-1].start + trees[-1].size < self._count:
+        first = trees[-1].stop if trees else 0
+        if first < self._count:
             bounds = np.full(len(points), math.inf)
             if squares.shape[1] >= k:
                 bounds = np.partition(squares, k - 1, axis=1)[:, k - 1]
-            near, apart = self._newest_within(points, bounds)
+            near, apart = self._newest_within(points, bounds, first)
             found = np.concatenate((found, near), axis=1)
             squares = np.concatenate((squares, apart), axis=1)
         distances = np.sqrt(squares)
-        order = distances.argsort(axis=1)
-        sorted_ = np.take_along_axis(distances, order[:, : k + 1], axis=1)
+        order = distances.argsort(axis=1, kind="stable")  # fast, as trees answer in order
+        lines = np.arange(len(points))[:, None] * distances.shape[1]
+        sorted_ = distances.take(order[:, : k + 1] + lines)
         # Of equally distant ones the oldest; that there are any is rare.
         tied = np.flatnonzero((sorted_[:, 1:] == sorted_[:, :-1]).any(axis=1))
-        order[tied] = np.lexsort((found[tied], distances[tied]), axis=1)
-        return sorted_[:, :k], np.take_along_axis(found, order[:, :k], axis=1)
+        if len(tied):
+            order[tied] = np.lexsort((found[tied], distances[tied]), axis=1)
+        return sorted_[:, :k], found.take(order[:, :k] + lines)
 
     def _squares(self, found: IndexArray, points: FloatArray) -> FloatArray:
         """Squared distances of found points, shape (m, w), to each of m; infinite for none."""
@@ -209,10 +210,13 @@ class NearestNeighbours:
         return squares
 
     def _newest_within(
-        self, points: FloatArray, bounds: FloatArray
+        self, points: FloatArray, bounds: FloatArray, first: int
     ) -> tuple[IndexArray, FloatArray]:
-        """The newest within these squared distances of each: indices and squares, in lines."""
-        newest = self._buffer[:, None, : self._count - self._in_trees]
+        """The newest within these squared distances of each: indices and squares, in lines.
+
+        Only those from number ``first`` on are looked at.
+        """
+        newest = self._newest_from(first)[:, None]
         step = max(1, _BLOCK // max(1, newest.shape[2]))
         counts, places, apart = [], [], []
         for start in range(0, len(points), step):
@@ -223,7 +227,7 @@ class NearestNeighbours:
             places.append(near.nonzero()[1])
             apart.append(squares[near])
         numbers = np.concatenate(counts)
-        found = np.concatenate(places) + self._in_trees
+        found = np.concatenate(places) + first
         return in_lines(found, numbers, -1), in_lines(np.concatenate(apart), numbers, math.inf)
 
     def gaps(self, points: ArrayLike) -> FloatArray:
@@ -232,12 +236,15 @@ class NearestNeighbours:
         Faster than to find which one that is; infinite while there is none.
         """
         checked = self._check(points, 2)
-        squares, trees = np.full(len(checked), math.inf), self._trees
-        if len(checked) >= _MANY:
-            trees = self._all_trees()
-        elif self._count > self._in_trees:
-            newest = self._buffer[:, : self._count - self._in_trees]
-            squares[:] = [_squared_distances(newest, point).min() for point in checked]
+        squares = np.full(len(checked), math.inf)
+        trees = self._more_trees() if len(checked) >= _MANY else self._trees
+        first = trees[-1].stop if trees else 0
+        if first < self._count:
+            newest = self._newest_from(first)
+            if len(checked) < _MANY:
+                squares[:] = [_squared_distances(newest, point).min() for point in checked]
+            else:
+                squares[:] = _squares_between(newest[:, None], checked).min(axis=1)
         for tree in trees:
             rows, _ = tree.nearest(checked, 1)  # the two nearest: trees round in their own way
             for candidates in tree.firsts(rows).T:
@@ -246,14 +253,19 @@ class NearestNeighbours:
         gaps: FloatArray = np.sqrt(squares)
         return gaps
 
-    def _all_trees(self) -> list[Tree]:
-        """Trees over all points, one over the newest among them, until there are newer ones."""
-        if self._count == self._in_trees:
-            return self._trees
-        if self._newest is None or self._newest.start + self._newest.size < self._count:
-            newest = self._storage[self._in_trees : self._count]
-            self._newest = Tree(newest, self._in_trees)
-        return [*self._trees, self._newest]
+    def _newest_from(self, first: int) -> FloatArray:
+        """The points from number ``first`` on, none of them in a tree: shape (d, n)."""
+        return self._buffer[:, first - self._in_trees : self._count - self._in_trees]
+
+    def _more_trees(self) -> list[Tree]:
+        """Trees over all points but the very newest: one over most of the newest among them."""
+        newest = self._newest
+        if newest is None or newest.start < self._in_trees:
+            newest = self._newest = None
+        if self._count - (self._in_trees if newest is None else newest.stop) >= _FEW_NEWEST:
+            points = self._storage[self._in_trees : self._count]
+            newest = self._newest = Tree(points, self._in_trees)
+        return self._trees if newest is None else [*self._trees, newest]
 
     def _settle(self) -> None:
         """Move the newest points into trees if many who ask would look at too many of them."""

@@ -37,8 +37,14 @@ class Tree:
             self._members = order + start
             self._sizes = np.diff(self._starts, append=self.size)
             points = points[order[self._starts]]
-        # Midpoint splits build about 1.6 times as fast as medians and answer no slower.
-        self._tree: Any = cKDTree(points, leafsize=16, balanced_tree=False)
+        # Midpoint splits, of boxes that are not shrunk, build about 1.8 times as fast as medians
+        # of shrunk ones and answer no slower.
+        self._tree: Any = cKDTree(points, 16, compact_nodes=False, balanced_tree=False)
+
+    @property
+    def stop(self) -> int:
+        """The number of the first point after those it has."""
+        return self.start + self.size
 
     def nearest(self, points: FloatArray, k: int) -> Answer:
         """Rows of k + 1 nearest distinct points, and from what distance on there may be more."""

@@ -99,8 +99,8 @@ class Partition:
     def region_of(self, kind: str, place: Sequence[float] | FloatArray) -> Region:
         """The leaf that contains a place of the unit box."""
         region = self.roots[kind]
-        while region.children is not None:
-            region = region.children[bool(place[region.axis] > region.cut)]
+        while (children := region.children) is not None:
+            region = children[1] if place[region.axis] > region.cut else children[0]
         return region
 
     def place_of(self, goal: Goal, context: Any) -> tuple[float, ...] | None:
@@ -109,9 +109,8 @@ class Partition:
         if space is None:
             return None
         place = space.encoded(goal.point)
-        for x in place:
-            if not 0.0 <= x <= 1.0:
-                return None
+        if min(place) < 0.0 or max(place) > 1.0:
+            return None
         if self.context_space is not None:  # measured ones may lie a little outside
             place += np.clip(self.context_space.encode(context), 0.0, 1.0).tolist()
         return tuple(place)

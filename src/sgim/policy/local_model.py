@@ -13,6 +13,7 @@ from sgim.policy.around import Around, taken
 from sgim.policy.smoothness import Smoothness, learned
 from sgim.spaces import Box, FloatArray
 
+_DECIDEDLY = 0.5  # Of the nearest outcome's error, what another policy may miss by.
 _FIRST, _GROWTH = 16, 2  # The map is learned again whenever there are so many times more trials.
 
 
@@ -27,9 +28,14 @@ class LocalModel:
     are expected to come nearer in the mean square. How far the model can be trusted is measured by
     leaving out each of those trials in turn.
 
-    Where there is decidedly no noise, or policies or outcomes are not vectors, it answers as
-    `Nearest` does, unless the map foresees nearly all and every policy produced an outcome; where
-    there decidedly is noise and no map shows, as `KernelMean` does.
+    Where a policy always has the outcome that it had, the nearest remembered outcome comes again,
+    and another policy is given only where it decidedly promises more: where the error to be
+    expected is at most half of the nearest one's. It is what the model misses of like policies, and
+    1 by the chance that the kind is not produced at all. That is so if the world says it
+    (`Memory.declare_deterministic`), or if there is decidedly no noise in what was tried.
+
+    Where policies or outcomes are not vectors it answers as `Nearest` does, and where there is
+    decidedly noise and no map shows, as `KernelMean` does.
 
     Args:
         near_outcomes: How many of the nearest outcomes to choose among.
@@ -58,10 +64,35 @@ class LocalModel:
     def answers(self, memory: KindMemory, keys: FloatArray) -> list[Answer]:
         """The policy expected to come nearest to each goal."""
         smoothness = self.smoothness(memory)
+        exact = memory.deterministic or (smoothness is not None and smoothness.noiseless)
         if smoothness is not None and smoothness.mapped:
-            return [self._answer(memory, key, smoothness) for key in keys]
-        noisy = smoothness is not None and smoothness.noisy
+            if exact:
+                return self._surer(memory, keys, smoothness)
+            return [self._answer(memory, key, smoothness, self.near_outcomes) for key in keys]
+        noisy = smoothness is not None and smoothness.noisy and not exact
         return (KernelMean() if noisy else Nearest()).answers(memory, keys)
+
+    def _surer(self, memory: KindMemory, keys: FloatArray, smoothness: Smoothness) -> list[Answer]:
+        """The nearest outcome's policy, or another where that decidedly promises more."""
+        answers = Nearest().answers(memory, keys)
+        rows = np.array([answer.row for answer in answers])
+        known = np.sqrt(((memory.keys.rows[rows] - keys) ** 2).sum(axis=1))
+        worth = _DECIDEDLY * known
+        risks = memory.chance_of_failing(memory.encoded_policies(rows), self.near_policies)
+        better: dict[int, tuple[Answer, float]] = {}
+        for i in np.flatnonzero(risks < worth).tolist():
+            found = self._answer(memory, keys[i], smoothness, 1)
+            if found.policy is not None:
+                may = self.prospects(memory, found, keys[i])
+                squares = ((may - keys[i, : may.shape[1]]) ** 2).sum(axis=1)
+                better[i] = found, math.sqrt(float(squares.mean()))
+        if better:
+            tried = np.array([found.policy for found, _ in better.values()])
+            risks = memory.chance_of_failing(tried, self.near_policies)
+            for (i, (found, miss)), risk in zip(better.items(), risks.tolist(), strict=True):
+                if miss + risk < worth[i]:  # a goal whose kind is not produced costs 1
+                    answers[i] = found
+        return answers
 
     def smoothness(self, memory: KindMemory) -> Smoothness | None:
         """What is known of the map from policies to outcomes; None if that is not enough.
@@ -100,7 +131,9 @@ class LocalModel:
         dimension = memory.dimension or 0
         remembered = memory.keys.rows[[answer.row], :dimension]
         smoothness = self.smoothness(memory)
-        if smoothness is None or (smoothness.noiseless and answer.policy is None):
+        if smoothness is None:
+            return remembered
+        if answer.policy is None and (memory.deterministic or smoothness.noiseless):
             return remembered
         policy = answer.policy
         if policy is None:
@@ -111,12 +144,14 @@ class LocalModel:
         around = Around(inputs, outcomes, centre[None], smoothness, self.near_policies)
         return around.may_produce(self.like_policies)
 
-    def _answer(self, memory: KindMemory, key: FloatArray, smoothness: Smoothness) -> Answer:
+    def _answer(
+        self, memory: KindMemory, key: FloatArray, smoothness: Smoothness, candidates: int
+    ) -> Answer:
         _, rows = memory.nearest(key, self.among)
         outcomes, inputs = taken(memory, rows)
         goal, context = key[: outcomes.shape[1]], key[outcomes.shape[1] :]
         dimension = inputs.shape[1] - len(context)
-        centres = inputs[: self.near_outcomes].copy()
+        centres = inputs[:candidates].copy()
         centres[:, dimension:] = context
         around = Around(inputs, outcomes, centres, smoothness, self.near_policies)
         best, expected, square = around.best(goal)

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from sgim.memory.memory import IntArray, KindMemory
 from sgim.policy.explorer import Episode, well_reached
 from sgim.policy.model import NearestModel
 from sgim.records import Goal, Trial
@@ -15,7 +16,7 @@ from sgim.spaces import Box, FloatArray
 
 _BLUR = 0.1  # Policies this much nearer than the farthest, squared, weigh alike: noise.
 _WIDEST = 1.0  # Of the standard deviation of a varied policy's coordinates in the unit box.
-_BLOCK = 32  # Episodes whose arrays are stacked at once, so that they stay in a cache.
+_BLOCK = 128  # Episodes whose arrays are stacked at once, so that they stay in a cache.
 _MANY = 8  # Systems from which on to solve them all at once is faster.
 _SAME = 1e-20  # Of a squared distance between policies in the unit box.
 
@@ -24,58 +25,75 @@ class _State:
     """What an episode's search knows: trials near the goal, the episode's own among them.
 
     Args:
+        memory: The trials that produced the goal's kind.
         goal: The goal's key.
-        policies: Policies in the unit box, shape ``(room, dimension)``.
-        keys: What they produced, shape ``(room, key dimension)``.
-        costs: How far that is from the goal, shape ``(room,)``, nearest first.
-        count: How many of the rows are known.
+        rows: Remembered trials, nearest first, shape ``(room,)``.
+        costs: How far what they produced is from the goal, shape ``(room,)``.
+        count: How many of the places are taken.
+
+    Attributes:
+        own: Place → policy in the unit box and key, of the episode's own trials.
+        best: Place of the best one; −1 if there is none.
+        cost: What it costs.
     """
 
-    __slots__ = ("best", "cost", "costs", "count", "goal", "keys", "policies", "proposed", "told")
+    __slots__ = (
+        "best",
+        "cost",
+        "costs",
+        "count",
+        "goal",
+        "memory",
+        "own",
+        "proposed",
+        "rows",
+        "told",
+    )
 
     def __init__(
         self,
+        memory: KindMemory,
         goal: FloatArray,
-        policies: FloatArray,
-        keys: FloatArray,
+        rows: IntArray,
         costs: FloatArray,
         count: int,
     ) -> None:
+        self.memory = memory
         self.goal = goal
-        self.policies = policies
-        self.keys = keys
+        self.rows = rows
         self.costs = costs
         self.count = count
         self.best = 0 if count else -1
         self.cost = float(costs[0]) if count else 1.0
-        self.proposed = policies[:0]
+        self.own: dict[int, tuple[FloatArray, FloatArray]] = {}
+        self.proposed = goal[:0]
         self.told: list[tuple[FloatArray, FloatArray, float]] = []
 
     def aim(self, goal: FloatArray) -> None:
         self.goal = goal
-        offsets = self.keys[: self.count] - goal
+        if not self.count:
+            return
+        keys = self.memory.keys.rows.take(self.rows[: self.count], axis=0)
+        for at, (_, key) in self.own.items():
+            keys[at] = key
+        offsets = keys - goal
         self.costs[: self.count] = np.sqrt(np.einsum("ij,ij->i", offsets, offsets))
-        if self.count:
-            self.best = int(self.costs[: self.count].argmin())
-            self.cost = float(self.costs[self.best])
+        self.best = int(self.costs[: self.count].argmin())
+        self.cost = float(self.costs[self.best])
 
     def take_in(self) -> None:
         """Add the trials that were told since the last proposal."""
-        for trial in self.told:
-            self._add(*trial)
+        for policy, key, cost in self.told:
+            n = self.count
+            if n == len(self.rows):  # the farthest from the goal makes room
+                n = int(self.costs.argmax())
+            else:
+                self.count = n + 1
+            self.own[n] = policy, key
+            self.costs[n] = cost
+            if self.best < 0 or cost < self.cost:
+                self.best, self.cost = n, cost
         self.told.clear()
-
-    def _add(self, policy: FloatArray, key: FloatArray, cost: float) -> None:
-        n = self.count
-        if n == len(self.policies):  # the farthest from the goal makes room
-            n = int(self.costs.argmax())
-        else:
-            self.count = n + 1
-        self.policies[n] = policy
-        self.keys[n] = key
-        self.costs[n] = cost
-        if self.best < 0 or cost < self.cost:
-            self.best, self.cost = n, cost
 
 
 class LocalSearch:
@@ -141,21 +159,19 @@ class LocalSearch:
         for kind, members in aimed.items():
             goals, contexts = [goal for _, goal in members], [e.context for e, _ in members]
             memory = self.model.memory.kinds[kind]
-            found = self.model.nearest_all(goals, contexts)
+            distances, near = self.model.neighbours(goals, contexts)
             # What follows the nearest makes room for the episode's own trials.
-            shape, near = (len(members), self.model.neighbourhood + self.budget), len(found[0][1])
+            count = near.shape[1]
+            shape = len(members), self.model.neighbourhood + self.budget
             rows, costs = np.zeros(shape, dtype=np.intp), np.zeros(shape)
-            rows[:, :near] = np.array([rows for _, rows in found])
-            costs[:, :near] = np.array([distances for distances, _ in found])
-            if near:
-                policies, keys = memory.encoded_policies(rows), memory.keys.rows.take(rows, axis=0)
+            rows[:, :count], costs[:, :count] = near, distances
+            if len(members) == 1:
+                wanted = self.model.goal_key(goals[0], contexts[0])[None]
             else:
-                policies = np.zeros((*shape, self.space.dimension))
-                keys = np.zeros((*shape, memory.keys.width))
-            wanted = self.model.memory.keys(kind, [goal.point for goal in goals], contexts)
-            states = zip(wanted, policies, keys, costs, strict=True)
-            for (episode, _), state in zip(members, states, strict=True):
-                episode.state = _State(*state, near)
+                wanted = self.model.memory.keys(kind, [goal.point for goal in goals], contexts)
+            places = zip(members, wanted, rows, costs, strict=True)
+            for (episode, _), goal, nearest, apart in places:
+                episode.state = _State(memory, goal, nearest, apart, count)
 
     def moved(self, episode: Episode) -> None:
         """Measure what is known against the goal in the new context."""
@@ -166,7 +182,7 @@ class LocalSearch:
     def propose(self, episodes: Sequence[Episode]) -> list[Any]:
         """A step and a variation for each episode, or a random policy."""
         points = np.empty((len(episodes), self.space.dimension))
-        stepping: dict[int, list[int]] = {}
+        stepping: dict[int, list[int]] = {}  # by the goal's kind
         for i, episode in enumerate(episodes):
             state: _State = episode.state
             state.take_in()
@@ -174,7 +190,7 @@ class LocalSearch:
             if state.count < 3 or episode.rng.random() < max(self.least_global, cost):
                 points[i] = episode.rng.random(self.space.dimension)
             else:
-                stepping.setdefault(len(state.goal), []).append(i)
+                stepping.setdefault(id(state.memory), []).append(i)
         for members in stepping.values():
             for first in range(0, len(members), _BLOCK):
                 chosen = members[first : first + _BLOCK]
@@ -191,27 +207,23 @@ class LocalSearch:
         same shapes however many there are.
         """
         states: list[_State] = [episode.state for episode in episodes]
-        if len(states) == 1:
-            (state,) = states
-            policies, keys = state.policies[None], state.keys[None]
-        else:
-            policies = np.array([s.policies for s in states])
-            keys = np.array([s.keys for s in states])
-        every = np.arange(len(states))[:, None]
-        best = np.array([[s.best] for s in states])
-        start, origin = policies[every, best], keys[every, best]
-        apart = policies - start
-        squares = np.einsum("bij,bij->bi", apart, apart)
-        for i, state in enumerate(states):
-            squares[i, state.count :] = np.inf
+        policies, keys = self._gathered(states)
+        room = policies.shape[1]
+        places = np.arange(0, len(states) * room, room)[:, None]  # of each state's first
+        best = places + np.array([[s.best] for s in states])
+        start, origin = _taken(policies, best), _taken(keys, best)
+        policies -= start
+        squares = np.einsum("bij,bij->bi", policies, policies)
+        counts = np.array([[s.count] for s in states])
+        squares[np.arange(room) >= counts] = np.inf
         squares[squares < _SAME] = np.inf  # the best one itself, and its copies, show no way
-        near = np.argpartition(squares, self.within - 1, axis=1)[:, : self.within]
-        squares, apart = squares[every, near], apart[every, near]
+        near = squares.argpartition(self.within - 1, axis=1)[:, : self.within] + places
+        squares, apart = squares.take(near), _taken(policies, near)
         known = np.isfinite(squares)
-        squares = np.where(known, squares, 0.0)
+        squares[~known] = 0.0
         reach = squares.max(axis=1)
         weights = known / (squares + (_BLUR * reach + 1e-300)[:, None])
-        effects = keys[every, near] - origin
+        effects = _taken(keys, near) - origin
         weighted = effects * weights[:, :, None]
         gram = effects.transpose(0, 2, 1) @ weighted
         goals = np.array([s.goal for s in states])
@@ -225,6 +237,16 @@ class LocalSearch:
         point: FloatArray = start[:, 0] + steps
         point += self._variations(episodes, slopes.tolist())
         return point
+
+    def _gathered(self, states: Sequence[_State]) -> tuple[FloatArray, FloatArray]:
+        """Policies in the unit box and keys of what states of one kind know, in their places."""
+        memory = states[0].memory
+        rows = np.array([s.rows for s in states]) if len(states) > 1 else states[0].rows[None]
+        policies, keys = memory.encoded_policies(rows), memory.keys.rows.take(rows, axis=0)
+        for i, state in enumerate(states):
+            for at, (policy, key) in state.own.items():
+                policies[i, at], keys[i, at] = policy, key
+        return policies, keys
 
     def _variations(self, episodes: Sequence[Episode], slopes: list[float]) -> FloatArray:
         """Random offsets that should each change the outcome by some share of the cost."""
@@ -255,6 +277,11 @@ class LocalSearch:
         assert episode.goal is not None
         tolerance = self.model.memory.task.tolerances[episode.goal.kind]
         return well_reached(episode, tolerance, self.reached_share)
+
+
+def _taken(vectors: FloatArray, places: IntArray) -> FloatArray:
+    """Vectors of an array of shape ``(b, room, n)``, by their places in all of it."""
+    return vectors.reshape(-1, vectors.shape[2]).take(places, axis=0)
 
 
 def _solved(squares: FloatArray, right: FloatArray) -> FloatArray:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import Any, Protocol, runtime_checkable
+from typing import Any, NamedTuple, Protocol, runtime_checkable
 
 import numpy as np
 
@@ -103,6 +103,18 @@ class InverseModel(Protocol):
         ...
 
 
+class _Near(NamedTuple):
+    """Distances and rows of what is near to several goals, a line for each; the least distances."""
+
+    distances: FloatArray
+    rows: IntArray
+    nearest: list[float]
+
+
+_Found = tuple[Goal, Any, _Near, int]
+"""A goal, its context, and where in a `_Near` is what is near to it: the line."""
+
+
 class NearestModel:
     """Measures competence by the remembered outcome nearest to the goal, and answers from memory.
 
@@ -120,7 +132,7 @@ class NearestModel:
         self.memory = memory
         self.answering = Nearest() if answering is None else answering
         self._local = answering if isinstance(answering, LocalModel) else LocalModel()
-        self._found: dict[int, tuple[Goal, Any, tuple[FloatArray, IntArray]]] = {}
+        self._found: dict[int, _Found] = {}
         self._found_among = 0
         self._goal: tuple[Goal | None, Any, FloatArray] = (None, None, np.empty(0))
         self._last: tuple[Sequence[Trial], dict[tuple[int, str], FloatArray]] = ((), {})
@@ -177,50 +189,69 @@ class NearestModel:
 
     def nearest(self, goal: Goal, context: Any) -> tuple[FloatArray, IntArray]:
         """Distances and rows of the `neighbourhood` outcomes nearest to the goal."""
-        if self._found_among == len(self.memory):
-            known = self._found.get(id(goal))
-            if known is not None and known[1] is context:
-                return known[2]
-        key = self.goal_key(goal, context)
-        found = self.memory.kinds[goal.kind].nearest(key, self.neighbourhood)
-        self._found, self._found_among = {id(goal): (goal, context, found)}, len(self.memory)
-        return found
+        ((_, _, near, line),) = self._near([goal], [context])
+        return near.distances[line], near.rows[line]
 
     def nearest_all(
         self, goals: Sequence[Goal], contexts: Sequence[Any]
     ) -> list[tuple[FloatArray, IntArray]]:
         """As `nearest` for several goals, by one query for those of a kind."""
-        if len(goals) == 1:
-            return [self.nearest(goals[0], contexts[0])]
+        found = self._near(goals, contexts)
+        return [(near.distances[line], near.rows[line]) for _, _, near, line in found]
+
+    def neighbours(
+        self, goals: Sequence[Goal], contexts: Sequence[Any]
+    ) -> tuple[FloatArray, IntArray]:
+        """As `nearest` for several goals of one kind: arrays with a line for each."""
+        found = self._near(goals, contexts)
+        near, lines = found[0][2], [line for *_, line in found]
+        if any(entry[2] is not near for entry in found):
+            return (
+                np.array([entry[2].distances[entry[3]] for entry in found]),
+                np.array([entry[2].rows[entry[3]] for entry in found]),
+            )
+        if lines == list(range(len(near.rows))):
+            return near.distances, near.rows
+        return near.distances.take(lines, axis=0), near.rows.take(lines, axis=0)
+
+    def _near(self, goals: Sequence[Goal], contexts: Sequence[Any]) -> list[_Found]:
+        """What is near to each goal, by one query for those of a kind; those of last time again."""
         known = self._found if self._found_among == len(self.memory) else {}
-        found: list[Any] = [None] * len(goals)
+        found: list[Any] = [known.get(id(goal)) for goal in goals]
         asked: dict[str, list[int]] = {}
-        for i, (goal, context) in enumerate(zip(goals, contexts, strict=True)):
-            hit = known.get(id(goal))
-            if hit is not None and hit[1] is context:
-                found[i] = hit[2]
-            else:
-                asked.setdefault(goal.kind, []).append(i)
+        for i, entry in enumerate(found):
+            if entry is None or entry[1] is not contexts[i]:
+                asked.setdefault(goals[i].kind, []).append(i)
+        if not asked:
+            return found
         for kind, members in asked.items():
-            points, where = [goals[i].point for i in members], [contexts[i] for i in members]
-            keys = self.memory.keys(kind, points, where)
-            distances, rows = self.memory.kinds[kind].nearest_batch(keys, self.neighbourhood)
-            for i, *answer in zip(members, distances, rows, strict=True):
-                found[i] = tuple(answer)
-        entries = zip(goals, contexts, found, strict=True)
-        self._found = {id(goal): (goal, *others) for goal, *others in entries}
+            near = self._asked(kind, [goals[i] for i in members], [contexts[i] for i in members])
+            for line, i in enumerate(members):
+                found[i] = goals[i], contexts[i], near, line
+        self._found = {id(entry[0]): entry for entry in found}
         self._found_among = len(self.memory)
         return found
 
+    def _asked(self, kind: str, goals: Sequence[Goal], contexts: Sequence[Any]) -> _Near:
+        memory = self.memory.kinds[kind]
+        if len(goals) == 1:
+            one = memory.nearest(self.goal_key(goals[0], contexts[0]), self.neighbourhood)
+            distances, rows = one[0][None], one[1][None]
+        else:
+            keys = self.memory.keys(kind, [goal.point for goal in goals], contexts)
+            distances, rows = memory.nearest_batch(keys, self.neighbourhood)
+        return _Near(distances, rows, distances[:, :1].ravel().tolist())
+
     def competence(self, goal: Goal, context: Any) -> float:
         """Minus the distance to the nearest outcome; −1 when the kind was never produced."""
-        distances, _ = self.nearest(goal, context)
-        return -min(1.0, float(distances[0])) if len(distances) else -1.0
+        return self.competences([goal], [context])[0]
 
     def competences(self, goals: Sequence[Goal], contexts: Sequence[Any]) -> list[float]:
         """As `competence` for several goals."""
-        found = self.nearest_all(goals, contexts)
-        return [-min(1.0, float(d[0])) if len(d) else -1.0 for d, _ in found]
+        found = self._near(goals, contexts)
+        return [
+            -min(1.0, near.nearest[line]) if near.nearest else -1.0 for _, _, near, line in found
+        ]
 
     def lacks(self, kind: str, places: FloatArray, context: Any) -> FloatArray:
         """The cost of goals of a kind, in [0, 1]; 1 where it was never produced.

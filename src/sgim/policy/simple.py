@@ -46,6 +46,8 @@ class RandomPolicies(Stateless):
 
     def propose(self, episodes: Sequence[Episode]) -> list[Any]:
         """One draw for each episode."""
+        if isinstance(self.space, Box):
+            return list(self.space.sample_all([e.rng for e in episodes]))
         return [self.space.sample(e.rng) for e in episodes]
 
 

@@ -29,8 +29,6 @@ _ENOUGH = 256  # Trials: with fewer, a few jumps of outcomes may look like noise
 _MAPPED = (0.8, 0.6)  # and more of the differences must be explained for a map to be used.
 _CLEAR = 0.01  # But noise of at most this share of the signal is not what jumps look like: then
 _MAPPED_CLEARLY = 0.4  # less will do.
-_USUALLY = 0.85  # Of the policies tried produced an outcome, for a map to be used.
-_NEARLY_ALL = 0.95  # Of the differences explained for a map to be used where there is no noise.
 _DROWNED = 0.2  # Noise over the signal that hides the map.
 _LEAST_NOISE = 1e-8  # What rounding needs.
 _MEAN = 10.0  # Variance of a neighbourhood's mean over that of the signal.
@@ -91,13 +89,9 @@ class Smoothness:
     @property
     def mapped(self) -> bool:
         """Whether it foresees enough for its map to be used."""
-        if self.drowned or self.produced < _USUALLY:
-            return False
-        if self.noiseless:  # A step must come nearer than what can be repeated exactly.
-            return self.produced == 1 and self.explained > _NEARLY_ALL
         clear = self.produced == 1 and self.evidence > _DECISIVE and self.noise <= _CLEAR
         least = _MAPPED_CLEARLY if clear and not self.enough else _MAPPED[self.enough]
-        return self.explained > least
+        return self.explained > least and not self.drowned
 
     @property
     def drowned(self) -> bool:

@@ -9,7 +9,7 @@ from pathlib import Path
 from sgim import algorithms
 from sgim.answers import Answers
 from sgim.errors import JournalError, SgimError
-from sgim.events import Ended, Told
+from sgim.events import Ended, Session, Told
 from sgim.learner import Learner
 from sgim.policy.answering import Answering
 from sgim.runs.benchmark import Benchmark
@@ -51,8 +51,11 @@ def open_repertoire(
                     f"{path} does not say how its learner is made ({error}); open it from Python "
                     "with sgim.open(path, learner=…), with a learner made as it was"
                 ) from error
-        for trial in iterate_trials(_first(journal.events(), movements)):
-            learner.observe(trial)
+        events = list(_first(journal.events(), movements))
+    if any(isinstance(event, Session) and event.facts.get("deterministic") for event in events):
+        learner.declare_deterministic()
+    for trial in iterate_trials(events):
+        learner.observe(trial)
     return learner
 
 

@@ -111,6 +111,8 @@ class Run:
             self.journal, replayed = kept.journal, kept.replayed
             self.world.show_recorded(self.journal)
         self.learner = replayed.learner
+        if environment.deterministic:
+            self.learner.declare_deterministic()
         self.evaluations = replayed.evaluations
         self.difference = replayed.difference
         self._unfinished_round: tuple[int, int] | None = None
@@ -167,7 +169,8 @@ class Run:
             RunError: If world or teachers fail too often in a row; the same holds.
         """
         measured = {} if self.benchmark is None else {"benchmark": self.benchmark.describe()}
-        self._record(Session(session_facts(target=movements, **measured)))
+        world = {"deterministic": bool(self.environment.deterministic)}
+        self._record(Session(session_facts(target=movements, **world, **measured)))
         if observer is not None:
             observer.started(self, movements)
         begun = time.monotonic()
@@ -289,8 +292,7 @@ class Run:
 
     def _told(self, outcomes: Sequence[Outcome], observer: Observer | None) -> None:
         self._failures["the world"] = 0
-        for outcome in outcomes:
-            self.world.observed(outcome)
+        self.world.observed(outcomes)
         self._evaluate_if_due(observer)
 
     def _evaluate_if_due(self, observer: Observer | None) -> None:

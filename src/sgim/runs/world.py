@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 from sgim.environments.base import MinimalEnvironment, draw_context, execute_all
@@ -38,6 +38,7 @@ class World:
     ) -> None:
         self.environment = environment
         self.teachers = dict(teachers)
+        self.watching = [t for t in teachers.values() if hasattr(t, "observe")]
         self.streams = streams
         self.real = real
 
@@ -56,17 +57,18 @@ class World:
         rng = self.streams(f"teacher/{request.teacher}", request.index)
         return self.teachers[request.teacher].demonstrate(request.goal, rng)
 
-    def observed(self, outcome: Outcome) -> None:
-        """Let the teachers who watch see what a movement produced."""
-        for teacher in self.teachers.values():
-            let_observe(teacher, outcome)
+    def observed(self, outcomes: Iterable[Outcome]) -> None:
+        """Let the teachers who watch see what movements produced."""
+        if self.watching:
+            for outcome in outcomes:
+                for teacher in self.watching:
+                    let_observe(teacher, outcome)
 
     def show_recorded(self, journal: Journal) -> None:
         """Let the teachers who watch see all that was recorded, as they did when it happened."""
-        if any(hasattr(teacher, "observe") for teacher in self.teachers.values()):
-            for event in journal.events(only=("told",)):
-                assert isinstance(event, Told)
-                self.observed(event.outcome)
+        if self.watching:
+            told = (event for event in journal.events(only=("told",)) if isinstance(event, Told))
+            self.observed(event.outcome for event in told)
 
     def execute(self, plan: Plan) -> Executed:
         """Execute one plan's policy; what was only watched is not executed."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import sqlite3
 import time
 from collections import defaultdict
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from contextlib import suppress
 from operator import itemgetter
 from pathlib import Path
@@ -24,37 +24,57 @@ GROUP_SECONDS = 1.0
 """Age in seconds of the oldest waiting row at which the next append commits."""
 
 
-def _insert(columns: Sequence[str]) -> str:
-    marks = ", ".join("?" * (len(columns) + 1))
-    return f"INSERT INTO events(seq, {', '.join(columns)}) VALUES ({marks})"
+INSERTED = 64
+"""Rows that one statement inserts, where there are so many of a shape: SQLite's fastest way."""
 
 
-def _shape(*columns: str) -> tuple[str, Callable[[Row], tuple[Any, ...]], int]:
-    """The statement that inserts only these columns, their values, and how many others remain."""
-    places = [COLUMNS.index(name) for name in columns]
-    return _insert(columns), itemgetter(*places), len(COLUMNS) - len(columns)
+class _Shape:
+    """Rows that have values in the same few columns, to be inserted by one statement.
+
+    Binding the columns that are empty would cost more than all the rest of an insertion.
+
+    Args:
+        columns: The columns that have values.
+        filled: One of them that tells: where it has a value, and
+        empty: another column has none, a row is of this shape.
+    """
+
+    def __init__(self, columns: Sequence[str], filled: str, empty: str) -> None:
+        self.pick = itemgetter(*(COLUMNS.index(name) for name in columns))
+        self.filled, self.empty = COLUMNS.index(filled), COLUMNS.index(empty)
+        self.width = 1 + len(columns)
+        values = f"({', '.join('?' * self.width)})"
+        self.one = f"INSERT INTO events(seq, {', '.join(columns)}) VALUES {values}"
+        self.many = self.one + f", {values}" * (INSERTED - 1)
+
+    def insert(self, db: sqlite3.Connection, values: list[Any]) -> None:
+        """Insert rows whose values, each row's ``seq`` first, lie one behind the other."""
+        width, most = self.width, INSERTED * self.width
+        whole = len(values) // most * most
+        for start in range(0, whole, most):
+            db.execute(self.many, values[start : start + most])
+        rest = range(whole, len(values), width)
+        db.executemany(self.one, (values[start : start + width] for start in rest))
 
 
-_EVERYTHING = _insert(COLUMNS)
-# Binding the columns that are empty would cost more than all the rest of an insertion.
+_ANY = _Shape(COLUMNS, "event", "event")
 _SHAPES = {
-    "planned": _shape("event", "episode", "plan", "policy"),
-    "told": _shape("event", "plan", "kind", "point"),
-    "opened": _shape("event", "episode", "name", "kind", "point", "detail"),
-    "closed": _shape("event", "episode", "name", "kind", "point", "detail"),
+    "planned": _Shape(("event", "episode", "plan", "policy"), "policy", "context"),
+    "told": _Shape(("event", "plan", "kind", "point"), "point", "seconds"),
+    "opened": _Shape(("event", "episode", "name", "kind", "point", "detail"), "point", "context"),
+    "closed": _Shape(("event", "episode", "name", "kind", "point", "detail"), "point", "context"),
 }
 
 
-def _by_shape(rows: list[Row], after: int, done: int) -> dict[str, list[tuple[Any, ...]]]:
-    """Values to insert, each row's ``seq`` first, by the statement that inserts them."""
-    groups: defaultdict[str, list[tuple[Any, ...]]] = defaultdict(list)
+def _by_shape(rows: list[Row], after: int, done: int) -> dict[_Shape, list[Any]]:
+    """Values to insert, each row's ``seq`` first, by the shape of their rows."""
+    groups: defaultdict[_Shape, list[Any]] = defaultdict(list)
     for seq, row in enumerate(rows[done:] if done else rows, start=after + done + 1):
-        statement, values = _EVERYTHING, row
-        if row[0] in _SHAPES:
-            shorter, picked, others = _SHAPES[row[0]]
-            if row.count(None) == others and None not in (some := picked(row)):
-                statement, values = shorter, some
-        groups[statement].append((seq, *values))
+        shape = _SHAPES.get(row[0])
+        if shape is None or row[shape.filled] is None or row[shape.empty] is not None:
+            groups[_ANY] += (seq, *row)
+        else:
+            groups[shape] += (seq, *shape.pick(row))
     return groups
 
 
@@ -141,8 +161,8 @@ class Writer:
                 db.execute("ROLLBACK")
             db.execute("BEGIN IMMEDIATE")
             done = self._already_written()
-            for statement, values in _by_shape(waiting.rows, waiting.after, done).items():
-                db.executemany(statement, values)
+            for shape, values in _by_shape(waiting.rows, waiting.after, done).items():
+                shape.insert(db, values)
             for statement, parameters in waiting.beside:
                 db.execute(statement, parameters)
             db.execute("COMMIT")

@@ -25,18 +25,19 @@ class News:
     def __init__(self, outcome_spaces: Mapping[str, Space]) -> None:
         self.spaces = outcome_spaces
         self._seen: dict[str, Counter[tuple[Any, ...]]] = {}
+        self._given: Counter[str] = Counter()
+        self._once: Counter[str] = Counter()  # of those given, how many were seen just once
 
     def take_in(self, mode: str, demonstration: Demonstration) -> None:
         """Note that a demonstration was taken in by a mode, which asks always the same teacher."""
         identity = tuple(
             (kind, self.spaces[kind].pack(point)) for kind, point in demonstration.outcome.items()
         )
-        self._seen.setdefault(mode, Counter())[identity] += 1
+        seen = self._seen.setdefault(mode, Counter())
+        seen[identity] += 1
+        self._given[mode] += 1
+        self._once[mode] += {1: 1, 2: -1}.get(seen[identity], 0)
 
     def expected(self, mode: str) -> float:
         """The chance that a mode's next demonstration is new to it, in (0, 1]."""
-        seen = self._seen.get(mode)
-        if not seen:
-            return 1.0
-        once = sum(count == 1 for count in seen.values())
-        return (once + 1) / (seen.total() + 1)
+        return (self._once[mode] + 1) / (self._given[mode] + 1)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from sgim import algorithms
-from sgim.events import Ended, Observed, Told
+from sgim.events import Ended, Observed, Session, Told
 from sgim.learner import Learner
 from sgim.records import Trial
 from sgim.runs.journal import Journal
@@ -35,7 +35,7 @@ class Repertoire:
     def learner(self) -> Learner:
         """The learner, as far as the journal goes now."""
         with Journal.open(self._path, self._task, append=False) as journal:
-            only = ("planned", "told", "ended", "observed")
+            only = ("session", "planned", "told", "ended", "observed")
             for row, event in journal.entries(self._after, only):
                 self._after = row
                 if isinstance(event, RecordedPlan):
@@ -47,4 +47,6 @@ class Repertoire:
                     self._plans.pop(event.plan, None)
                 elif isinstance(event, Observed):
                     self._learner.observe(event.trial)
+                elif isinstance(event, Session) and event.facts.get("deterministic"):
+                    self._learner.declare_deterministic()
         return self._learner
