@@ -35,8 +35,11 @@ class Configuration(MixtureSettings):
 
     Attributes:
         name: ``"thesis"``, ``"modern"``, or a name of one's own.
-        search: The goal-directed explorer: ``"nelder-mead"``, ``"local"``, ``"pi2"``, or
-            ``"cma-es"``, which needs the extra ``cma``.
+        search: The goal-directed explorer: ``"nelder-mead"``, ``"local"``, ``"guided"`` while
+            trials are few and local then, ``"pi2"``, or ``"cma-es"``, which needs the extra
+            ``cma``.
+        seconds_per_trial: What a trial may take to decide, in s, which says how many are few for
+            ``"guided"`` (see `guided_trials`); 0 if not stated: little beside a quick simulator.
         answering: Which policy answers a goal: that of the ``"nearest"`` outcome, as in the thesis,
             the most ``"reliable"`` one, the best by a ``"kernel"`` mean, or by a ``"local"`` model.
         search_movements: Movements of an autonomous or emulation episode.
@@ -87,7 +90,7 @@ class Configuration(MixtureSettings):
     """
 
     name: str
-    search: Literal["nelder-mead", "local", "cma-es", "pi2"]
+    search: Literal["nelder-mead", "local", "guided", "cma-es", "pi2"]
     search_movements: int = 20
     mimicry_movements: int = 10
     mimicry_radius: float = 0.05
@@ -118,6 +121,7 @@ class Configuration(MixtureSettings):
     label_tested: Literal["after", "before"] = "after"
     label_pick: Literal["proportional", "argmax"] = "proportional"
     answering: Literal["nearest", "reliable", "kernel", "local"] = "nearest"
+    seconds_per_trial: float = 0.0
 
     def __post_init__(self) -> None:
         for name in _AT_LEAST_ONE:
@@ -126,6 +130,9 @@ class Configuration(MixtureSettings):
         for name in _ABOVE_NOTHING:
             if not 0 < getattr(self, name) < math.inf:
                 raise SettingError(f"{name} is {getattr(self, name)}, expected a positive number")
+        if not 0 <= self.seconds_per_trial < math.inf:
+            said = self.seconds_per_trial
+            raise SettingError(f"seconds_per_trial is {said}, expected seconds, or 0 if not stated")
         self.check_mixtures()
 
     def measure(self, task: Task) -> InterestMeasure:
@@ -141,7 +148,7 @@ class Configuration(MixtureSettings):
 THESIS = Configuration("thesis", "nelder-mead")
 MODERN = Configuration(
     "modern",
-    "local",
+    "guided",
     search_movements=2,
     mimicry_movements=1,
     mimicry_exact_first=True,

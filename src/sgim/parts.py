@@ -21,6 +21,7 @@ from sgim.policy import (
     CompetenceModel,
     CovarianceAdaptation,
     Explorer,
+    GuidedSearch,
     LocalSearch,
     MakeDistribution,
     Mimicry,
@@ -30,6 +31,7 @@ from sgim.policy import (
     PathIntegral,
     PopulationSearch,
     answering_of,
+    guided_trials,
 )
 from sgim.strategy import DemonstrationsFirst, JointChoice, Mode, News, Strategy
 from sgim.streams import Streams
@@ -102,9 +104,12 @@ class Parts:
                 _DISTRIBUTIONS[config.search],
                 reached_share=config.reached_share,
             )
-        return LocalSearch(
+        local = LocalSearch(
             self.model, budget=config.search_movements, reached_share=config.reached_share
         )
+        if config.search == "local":
+            return local
+        return GuidedSearch(local, guided_trials(config.seconds_per_trial))
 
     def _repetition(self) -> Explorer:
         config = self.config

@@ -24,6 +24,7 @@ from sgim.mixture_settings import MixtureSettings
 from sgim.outcome.expected_gain import ExpectedGain
 from sgim.outcome.region_tree import RegionTree
 from sgim.policy.answering import KernelMean, Reliable
+from sgim.policy.guided_search import GuidedSearch
 from sgim.policy.local_model import LocalModel
 from sgim.policy.local_search import LocalSearch
 from sgim.policy.model import NearestModel
@@ -317,6 +318,7 @@ PARTS = (
     LocalModel,
     NelderMeadSearch,
     LocalSearch,
+    GuidedSearch,
     NoisyNearest,
     RegionTree,
     ExpectedGain,

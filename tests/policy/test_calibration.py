@@ -60,7 +60,7 @@ def test_of_the_goals_said_to_be_reached_on_noisy_arms_the_stated_share_is(
     world = ARMS[arm]
     learner = algorithms.make(name, world.task, seed=2)
     Run(learner, world).go(movements)
-    goals = reachable_goals(arm)[::2]
+    goals = reachable_goals(arm)
     stated, true = stated_and_true(learner.by(way), world, goals, (0.01, 0.02, 0.04, 0.08))
     require_calibrated(stated, true, 0.1)
 

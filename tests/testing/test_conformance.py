@@ -24,6 +24,7 @@ from sgim.outcome.progress import CompetenceChange, InterestMeasure, MeanProgres
 from sgim.outcome.region_tree import RegionTree
 from sgim.outcome.table import InterestTable
 from sgim.policy.explorer import Explorer
+from sgim.policy.guided_search import GuidedSearch
 from sgim.policy.local_search import LocalSearch
 from sgim.policy.mixture_model import Learning, MixtureModel
 from sgim.policy.mixture_search import AroundRest, MixtureSearch
@@ -209,6 +210,8 @@ EXPLORERS: Mapping[str, Callable[[NearestModel], Explorer]] = {
     "Nelder-Mead": NelderMeadSearch,
     "local search": LocalSearch,
     "local search, large variations": lambda model: LocalSearch(model, variation=(1.0, 30.0)),
+    "guided search": lambda model: GuidedSearch(LocalSearch(model)),
+    "guided search, until the middle": lambda model: GuidedSearch(LocalSearch(model), 60),
     "CMA-ES": lambda model: PopulationSearch(model, CovarianceAdaptation),
     "PI2": lambda model: PopulationSearch(model, PathIntegral),
     "noise around the nearest": NoisyNearest,
@@ -235,4 +238,5 @@ def test_the_rounding_of_local_search_does_not_depend_on_its_company(dimension: 
     policies = Box(-1 - rng.random(dimension), 1)
     task = Task(policies, {"place": outcomes, "throw": Box([0, 0, 0], 1)})
     check_explorer(LocalSearch, task, seed=dimension)
+    check_explorer(lambda model: GuidedSearch(LocalSearch(model)), task, seed=dimension)
     check_explorer(NelderMeadSearch, task, seed=dimension)

@@ -2,6 +2,7 @@
 
 from sgim.policy.answering import Answer, Answering, KernelMean, Nearest, Reliable
 from sgim.policy.explorer import Episode, Explorer
+from sgim.policy.guided_search import GuidedSearch, guided_trials
 from sgim.policy.local_model import LocalModel
 from sgim.policy.local_search import LocalSearch
 from sgim.policy.mixture_model import Learning, MixtureModel
@@ -26,6 +27,7 @@ __all__ = [
     "CovarianceAdaptation",
     "Episode",
     "Explorer",
+    "GuidedSearch",
     "InverseModel",
     "Learning",
     "KernelMean",
@@ -46,4 +48,5 @@ __all__ = [
     "RandomPolicies",
     "Reliable",
     "answering_of",
+    "guided_trials",
 ]

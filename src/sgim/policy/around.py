@@ -105,16 +105,10 @@ class Around:
         metric = self.smoothness.metric[: len(offset)]
         here = offset @ metric
         apart = points - here
-        correlation = self.smoothness.correlation(np.einsum("ij,ij->i", apart, apart))
-        slopes = metric @ (apart.T @ (weights * correlation[:, None]))
-        slopes /= self.smoothness.length**2
-        # The least step by the metric.
-        least = np.linalg.solve(metric @ metric.T, slopes)
-        gram = slopes.T @ least
-        damping = 1e-6 * float(np.trace(gram))
-        if not damping > 0:
+        slopes = self.smoothness.slopes(apart, weights, len(offset))
+        way = self.smoothness.way(slopes, goal - expected)
+        if way is None:
             return None
-        way = least @ np.linalg.solve(gram + damping * np.eye(len(gram)), goal - expected)
         start = self.centres[centre, : len(offset)]
         reach = float(np.sqrt(np.einsum("ij,ij->i", points, points).max()))
         tried = []

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 
@@ -106,7 +107,11 @@ class LocalModel:
         known = self._learned.get(memory)
         if known is None or known[0] != count:
             outcomes, inputs = taken(memory, slice(0, count))
-            known = self._learned[memory] = count, learned(inputs, outcomes)
+            found = learned(inputs, outcomes)
+            if found is not None:
+                tried = int(memory.trials.rows[count - 1]) + 1
+                found = replace(found, produced=count / tried)
+            known = self._learned[memory] = count, found
         return known[1]
 
     def prospects(self, memory: KindMemory, answer: Answer, key: FloatArray) -> FloatArray:

@@ -10,9 +10,10 @@ import numpy as np
 
 from sgim.errors import SgimError
 from sgim.memory import Memory
-from sgim.memory.memory import IntArray
+from sgim.memory.memory import IntArray, KindMemory
 from sgim.policy.answering import Answer, Answering, Nearest
 from sgim.policy.local_model import LocalModel
+from sgim.policy.smoothness import Smoothness
 from sgim.records import Goal, Solution, Trial
 from sgim.spaces import Box, FloatArray
 
@@ -273,6 +274,14 @@ class NearestModel:
             return -1.0
         difference = key - self.goal_key(goal, context)
         return -min(1.0, math.sqrt(difference.dot(difference)))
+
+    def smoothness(self, memory: KindMemory) -> Smoothness | None:
+        """How smooth the map to a kind's outcomes is, and how noisy; None if little is known.
+
+        Args:
+            memory: What is remembered of the kind.
+        """
+        return self._local.smoothness(memory)
 
     def best_policy(self, goal: Goal, context: Any) -> Any:
         """The policy that the way of answering chooses."""

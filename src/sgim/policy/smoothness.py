@@ -27,6 +27,8 @@ _ALIKE = 0.5  # The share of the metric in which all directions count alike.
 _DECISIVE = 1.0  # Of a difference of logarithms of likelihoods.
 _ENOUGH = 256  # Trials: with fewer, a few jumps of outcomes may look like noise,
 _MAPPED = (0.8, 0.6)  # and more of the differences must be explained for a map to be used.
+_CLEAR = 0.01  # But noise of at most this share of the signal is not what jumps look like: then
+_MAPPED_CLEARLY = 0.4  # less will do.
 _DROWNED = 0.2  # Noise over the signal that hides the map.
 _LEAST_NOISE = 1e-8  # What rounding needs.
 _MEAN = 10.0  # Variance of a neighbourhood's mean over that of the signal.
@@ -47,6 +49,8 @@ class Smoothness:
         explained: Share of the differences between a neighbourhood's outcomes that is foreseen
             when each is left out, noise not counted where it is known; the median neighbourhood's.
         trials: From how many trials it was learned.
+        produced: Share of all policies tried by then that produced such an outcome: a map knows
+            nothing of those that did not.
     """
 
     metric: FloatArray
@@ -56,6 +60,7 @@ class Smoothness:
     evidence: float
     explained: float
     trials: int
+    produced: float = 1.0
 
     @property
     def enough(self) -> bool:
@@ -84,7 +89,9 @@ class Smoothness:
     @property
     def mapped(self) -> bool:
         """Whether it foresees enough for its map to be used."""
-        return self.explained > _MAPPED[self.enough] and not self.drowned
+        clear = self.produced == 1 and self.evidence > _DECISIVE and self.noise <= _CLEAR
+        least = _MAPPED_CLEARLY if clear and not self.enough else _MAPPED[self.enough]
+        return self.explained > least and not self.drowned
 
     @property
     def drowned(self) -> bool:
@@ -104,6 +111,41 @@ class Smoothness:
     def alone(self) -> float:
         """The covariance of a policy with itself."""
         return 1.0 + _MEAN
+
+    def slopes(self, apart: FloatArray, weights: FloatArray, dimension: int) -> FloatArray:
+        """How much outcomes change along each coordinate of a policy.
+
+        Args:
+            apart: Where trials lie from the policy, by the metric, shape ``(k, n)``.
+            weights: Of the trials' covariances in what is expected, shape ``(k, d)``.
+            dimension: Of policies; what follows in a row are contexts.
+
+        Returns:
+            Shape ``(dimension, d)``.
+        """
+        correlation = self.correlation(np.einsum("ij,ij->i", apart, apart))
+        slopes = self.metric[:dimension] @ (apart.T @ (weights * correlation[:, None]))
+        slopes /= self.length**2
+        return slopes
+
+    def way(self, slopes: FloatArray, lacking: FloatArray) -> FloatArray | None:
+        """The least change of a policy, by the metric, that should change its outcome by as much.
+
+        Args:
+            slopes: As `slopes` gives them, shape ``(dimension, d)``.
+            lacking: The change of the outcome, shape ``(d,)``.
+
+        Returns:
+            Shape ``(dimension,)``; None if nothing is known of the way.
+        """
+        metric = self.metric[: len(slopes)]
+        least = np.linalg.solve(metric @ metric.T, slopes)
+        gram = slopes.T @ least
+        damping = 1e-6 * float(np.trace(gram))
+        if not damping > 0:
+            return None
+        way: FloatArray = least @ np.linalg.solve(gram + damping * np.eye(len(gram)), lacking)
+        return way
 
     def inverses(self, points: FloatArray) -> FloatArray:
         """Inverse covariances of outcomes at some points by the metric, shape ``(..., k, n)``."""
