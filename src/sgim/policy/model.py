@@ -276,11 +276,7 @@ class NearestModel:
         return -min(1.0, math.sqrt(difference.dot(difference)))
 
     def smoothness(self, memory: KindMemory) -> Smoothness | None:
-        """How smooth the map to a kind's outcomes is, and how noisy; None if little is known.
-
-        Args:
-            memory: What is remembered of the kind.
-        """
+        """How smooth the map to a kind's outcomes is, and how noisy; None if little is known."""
         return self._local.smoothness(memory)
 
     def best_policy(self, goal: Goal, context: Any) -> Any:
