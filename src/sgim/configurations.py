@@ -35,11 +35,11 @@ class Configuration(MixtureSettings):
 
     Attributes:
         name: ``"thesis"``, ``"modern"``, or a name of one's own.
-        search: The goal-directed explorer: ``"nelder-mead"``, ``"local"``, ``"guided"`` while
-            trials are few and local then, ``"pi2"``, or ``"cma-es"``, which needs the extra
-            ``cma``.
-        seconds_per_trial: What a trial may take to decide, in s, which says how many are few for
-            ``"guided"`` (see `guided_trials`); 0 if not stated: little beside a quick simulator.
+        search: The goal-directed explorer: ``"nelder-mead"``, ``"local"``, ``"pi2"``, or
+            ``"cma-es"``, which needs the extra ``cma``.
+        seconds_per_trial: What a trial may take to decide, in s; 0 if a trial costs little, as in a
+            simulator. If it is more, a map over all trials guides the ``"local"`` search while
+            they are few: so many that deciding keeps within these seconds (see `guided_trials`).
         answering: Which policy answers a goal: that of the ``"nearest"`` outcome, as in the thesis,
             the most ``"reliable"`` one, the best by a ``"kernel"`` mean, or by a ``"local"`` model.
         search_movements: Movements of an autonomous or emulation episode.
@@ -90,7 +90,7 @@ class Configuration(MixtureSettings):
     """
 
     name: str
-    search: Literal["nelder-mead", "local", "guided", "cma-es", "pi2"]
+    search: Literal["nelder-mead", "local", "cma-es", "pi2"]
     search_movements: int = 20
     mimicry_movements: int = 10
     mimicry_radius: float = 0.05
@@ -132,7 +132,7 @@ class Configuration(MixtureSettings):
                 raise SettingError(f"{name} is {getattr(self, name)}, expected a positive number")
         if not 0 <= self.seconds_per_trial < math.inf:
             said = self.seconds_per_trial
-            raise SettingError(f"seconds_per_trial is {said}, expected seconds, or 0 if not stated")
+            raise SettingError(f"seconds_per_trial is {said}, expected seconds, or 0 for little")
         self.check_mixtures()
 
     def measure(self, task: Task) -> InterestMeasure:
@@ -148,7 +148,7 @@ class Configuration(MixtureSettings):
 THESIS = Configuration("thesis", "nelder-mead")
 MODERN = Configuration(
     "modern",
-    "guided",
+    "local",
     search_movements=2,
     mimicry_movements=1,
     mimicry_exact_first=True,

@@ -107,9 +107,8 @@ class Parts:
         local = LocalSearch(
             self.model, budget=config.search_movements, reached_share=config.reached_share
         )
-        if config.search == "local":
-            return local
-        return GuidedSearch(local, guided_trials(config.seconds_per_trial))
+        trials = guided_trials(config.seconds_per_trial)
+        return GuidedSearch(local, trials) if trials else local
 
     def _repetition(self) -> Explorer:
         config = self.config

@@ -19,7 +19,7 @@ from sgim.errors import SettingError
 from sgim.learner import Learner
 from sgim.memory import Memory
 from sgim.policy import GuidedSearch, LocalSearch, NearestModel, guided_trials
-from sgim.policy.guided_search import MOST_TRIALS, OPERATIONS_PER_SECOND, UNSTATED_TRIALS
+from sgim.policy.guided_search import MOST_TRIALS, OPERATIONS_PER_SECOND
 from sgim.records import Goal, Trial
 from sgim.runs import Run
 from sgim.spaces import Box, Choices
@@ -27,6 +27,7 @@ from sgim.task import Task
 
 ARM = PlanarArm(7)
 QUIET = PlanarArm(7, noise=0)
+THINKING = "modern,seconds_per_trial=1"
 
 
 def knowing(world: PlanarArm, count: int, seed: int = 0) -> NearestModel:
@@ -159,7 +160,8 @@ def test_kinds_of_outcome_without_a_map_leave_it_to_the_local_search() -> None:
     def world(policy: np.ndarray) -> dict[str, Any]:
         return {"x": policy[:1], "seen": "yes" if policy[0] > 0.5 else "no"}
 
-    learner = algorithms.make("sagg-riac", Task(task.policy_space, {"x": Box(0, 1)}), seed=1)
+    task_of_numbers = Task(task.policy_space, {"x": Box(0, 1)})
+    learner = algorithms.make("sagg-riac", task_of_numbers, configuration=THINKING, seed=1)
     assert isinstance(learner.strategy.modes["autonomous"].explorer, GuidedSearch)
     model = remember(task, world, random_policies(task, 60))
     search = GuidedSearch(LocalSearch(model))
@@ -168,8 +170,7 @@ def test_kinds_of_outcome_without_a_map_leave_it_to_the_local_search() -> None:
 
 
 def test_seconds_are_turned_into_trials_by_operations_and_not_by_a_clock() -> None:
-    assert guided_trials(0) == UNSTATED_TRIALS
-    assert [guided_trials(s) for s in (0.1, 0.3)] == [0, 0]
+    assert [guided_trials(s) for s in (0.0, 0.1, 0.3)] == [0, 0, 0]
     assert guided_trials(1) == 704
     assert guided_trials(1e6) == MOST_TRIALS
     for seconds in (0.5, 1.0, 5.0, 30.0):
@@ -201,16 +202,16 @@ def test_no_map_is_asked_once_the_budget_is_used_up(
 
 @pytest.mark.parametrize("seconds", [-1.0, math.inf, math.nan])
 def test_a_budget_is_a_number_of_seconds(seconds: float) -> None:
-    with pytest.raises(SettingError, match=r"expected seconds, or 0 if not stated"):
+    with pytest.raises(SettingError, match=r"expected seconds, or 0 for little"):
         configuration_of({**configuration_of("modern").describe(), "seconds_per_trial": seconds})
 
 
-def test_a_configuration_of_before_is_still_made_as_it_was() -> None:
-    described = configuration_of("modern").describe()
-    del described["seconds_per_trial"]
-    before = configuration_of({**described, "search": "local"})
-    learner = algorithms.make("sagg-riac", ARM.task, configuration=before)
+def test_where_trials_cost_little_the_local_search_decides_alone() -> None:
+    learner = algorithms.make("sagg-riac", ARM.task, seed=1)
     assert isinstance(learner.strategy.modes["autonomous"].explorer, LocalSearch)
+    described = configuration_of("modern").describe()
+    del described["seconds_per_trial"]  # as journals of before have it
+    assert configuration_of(described) == configuration_of("modern")
 
 
 def rows(path: Path) -> list[tuple[object, ...]]:
@@ -265,7 +266,9 @@ def tried(learner: Learner, together: bool) -> list[Any]:
 
 
 def test_batches_are_decided_as_one_by_one() -> None:
-    made = [algorithms.make("sagg-riac", ARM.task, seed=2) for _ in range(2)]
+    made = [
+        algorithms.make("sagg-riac", ARM.task, configuration=THINKING, seed=2) for _ in range(2)
+    ]
     together, alone = (
         tried(learner, how) for learner, how in zip(made, (True, False), strict=True)
     )

@@ -42,7 +42,7 @@ def test_a_page_of_another_site_cannot_connect(browser: Any, hand: Hand, hockey:
 
 def test_a_movement_is_drawn_looked_at_and_kept_as_a_file(hand: Hand, tmp_path: Path) -> None:
     hand.begin()
-    hand.drag(UPWARD)
+    hand.sweep([(0.0, -26.0)], 1.5)  # long enough for its replay to be seen
     assert "correspondence error" in hand.assessed()
     before = hand.tip()
     hand.page.keyboard.press("r")

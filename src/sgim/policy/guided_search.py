@@ -20,9 +20,6 @@ from sgim.spaces import FloatArray
 OPERATIONS_PER_SECOND = 1e9
 """By which seconds are turned into trials: few for a computer of today."""
 
-UNSTATED_TRIALS = 500
-"""How many trials are guided where a trial's time is not stated."""
-
 MOST_TRIALS = 4000
 """How many trials are guided at most: the map takes 8 bytes for each pair of twice so many."""
 
@@ -38,10 +35,8 @@ def guided_trials(seconds: float) -> int:
     not on how fast the computer happens to be: the same run comes out everywhere.
 
     Args:
-        seconds: What a trial may take to decide; 0 if that is not stated.
+        seconds: What a trial may take to decide.
     """
-    if seconds == 0:
-        return UNSTATED_TRIALS
     spare = max(OPERATIONS_PER_SECOND * seconds - _LEARNING, 0.0)
     return int(min((spare / 2) ** (1 / 3), MOST_TRIALS))
 
@@ -73,7 +68,7 @@ class GuidedSearch:
     def __init__(
         self,
         local: LocalSearch,
-        trials: int = UNSTATED_TRIALS,
+        trials: int = 500,
         *,
         near_outcomes: int = 8,
         variation: tuple[float, float] = (0.5, 1.5),
