@@ -126,6 +126,8 @@ def growth(throwing, options) -> None:
         learner = throwing.learner(options.learner, configuration=options.configuration)
         times = {}
         with throwing.run(learner, Path(folder) / "run.sgim") as going:
+            if not options.evaluations:
+                going.benchmark = None
             for mark in (9000, 10000, 90000, 100000):
                 start = time.process_time()
                 going.go(mark)
