@@ -110,6 +110,16 @@ class Hand:
     def in_control(self) -> None:
         self.wait("window.sgim && window.sgim.control() && window.sgim.tip() !== null")
 
+    def take_control(self) -> None:
+        """Be in control, once nobody else is, and see replays at half speed."""
+        self.wait("window.sgim && window.sgim.version() !== null")
+        self.wait("window.sgim.control() || !document.querySelector('#control').disabled")
+        if not self.page.evaluate("window.sgim.control()"):
+            self.page.click("#control")
+        self.in_control()
+        self.page.select_option("#tempo", "0.5")
+        self.page.focus("#stage")
+
     def begin(self) -> None:
         """Record, and wait until that has begun."""
         self.page.keyboard.press("Space")

@@ -169,12 +169,7 @@ def hand(opened: Hand) -> Hand:
     opened.wait("window.sgim && window.sgim.version() !== null")
     page.set_viewport_size(VIEWPORT)
     page.click("#tab-teach")
-    page.focus("#stage")
-    if not page.evaluate("window.sgim.control()"):
-        page.click("#control")
-    opened.in_control()
-    page.select_option("#tempo", "0.5")
-    page.focus("#stage")
+    opened.take_control()
     if opened.state() != "practice":
         page.keyboard.press("ArrowLeft")
         opened.wait("window.sgim.state() === 'practice'")

@@ -14,13 +14,7 @@ def ready(context: Any, site: Site) -> Hand:
     page = context.new_page()
     page.goto(site.served.url)
     hand = Hand(page)
-    hand.wait("window.sgim && window.sgim.version() !== null")
-    hand.wait("window.sgim.control() || !document.querySelector('#control').disabled")
-    if not page.evaluate("window.sgim.control()"):
-        page.click("#control")
-    hand.in_control()
-    page.select_option("#tempo", "0.5")
-    page.focus("#stage")
+    hand.take_control()
     return hand
 
 

@@ -9,12 +9,12 @@ from pathlib import Path
 from sgim import algorithms
 from sgim.answers import Answers
 from sgim.errors import JournalError, SgimError
-from sgim.events import Ended, Session, Told
+from sgim.events import Ended, Told
 from sgim.learner import Learner
 from sgim.policy.answering import Answering
 from sgim.runs.benchmark import Benchmark
 from sgim.runs.journal import Journal
-from sgim.runs.replay import iterate_trials
+from sgim.runs.replay import iterate_trials, says_deterministic
 from sgim.runs.rows import RecordedEvent
 from sgim.streams import Streams
 from sgim.task import Task
@@ -51,12 +51,18 @@ def open_repertoire(
                     f"{path} does not say how its learner is made ({error}); open it from Python "
                     "with sgim.open(path, learner=…), with a learner made as it was"
                 ) from error
-        events = list(_first(journal.events(), movements))
-    if any(isinstance(event, Session) and event.facts.get("deterministic") for event in events):
-        learner.declare_deterministic()
-    for trial in iterate_trials(events):
-        learner.observe(trial)
+        heeded = _heeded(learner, _first(journal.events(), movements))
+        for trial in iterate_trials(heeded):
+            learner.observe(trial)
     return learner
+
+
+def _heeded(learner: Learner, events: Iterable[RecordedEvent]) -> Iterator[RecordedEvent]:
+    """The events; a learner is told on the way if one says that the world is deterministic."""
+    for event in events:
+        if says_deterministic(event):
+            learner.declare_deterministic()
+        yield event
 
 
 def _first(events: Iterable[RecordedEvent], movements: int | None) -> Iterator[RecordedEvent]:

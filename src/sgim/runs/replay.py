@@ -249,6 +249,11 @@ def _words(event: Opened) -> str:
     return f"{event.mode} for {goal}{most} ({event.cause})"
 
 
+def says_deterministic(event: RecordedEvent) -> bool:
+    """Whether an event says that the run's world is deterministic."""
+    return isinstance(event, Session) and bool(event.facts.get("deterministic"))
+
+
 def iterate_trials(events: Iterable[RecordedEvent]) -> Iterator[Trial]:
     """The trials of a record, in the order they were told: for a warm start from another run."""
     plans: dict[int, RecordedPlan] = {}

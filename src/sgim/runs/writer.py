@@ -34,9 +34,9 @@ class _Shape:
     Binding the columns that are empty would cost more than all the rest of an insertion.
 
     Args:
-        columns: The columns that have values.
-        filled: One of them that tells: where it has a value, and
-        empty: another column has none, a row is of this shape.
+        columns: The columns that may have values; all others of such a row are empty.
+        filled: One of them. An event's row is of this shape if it has a value here
+        empty: and none here: how events are encoded leaves no other case.
     """
 
     def __init__(self, columns: Sequence[str], filled: str, empty: str) -> None:

@@ -5,10 +5,11 @@ from __future__ import annotations
 from pathlib import Path
 
 from sgim import algorithms
-from sgim.events import Ended, Observed, Session, Told
+from sgim.events import Ended, Observed, Told
 from sgim.learner import Learner
 from sgim.records import Trial
 from sgim.runs.journal import Journal
+from sgim.runs.replay import says_deterministic
 from sgim.runs.rows import RecordedPlan
 from sgim.task import Task
 
@@ -47,6 +48,6 @@ class Repertoire:
                     self._plans.pop(event.plan, None)
                 elif isinstance(event, Observed):
                     self._learner.observe(event.trial)
-                elif isinstance(event, Session) and event.facts.get("deterministic"):
+                elif says_deterministic(event):
                     self._learner.declare_deterministic()
         return self._learner
