@@ -2,6 +2,10 @@
 
 import os
 
+# Tests run side by side, a process for each core: threads for small matrices would only be in each
+# other's way. It must be said before NumPy is imported.
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+
 from hypothesis import settings
 
 # A busy machine makes nothing wrong, so nothing has a deadline. New counterexamples are welcome
