@@ -111,13 +111,12 @@ class Hand:
         self.wait("window.sgim && window.sgim.control() && window.sgim.tip() !== null")
 
     def take_control(self) -> None:
-        """Be in control, once nobody else is, and see replays at half speed."""
+        """Be in control, once nobody else is."""
         self.wait("window.sgim && window.sgim.version() !== null")
         self.wait("window.sgim.control() || !document.querySelector('#control').disabled")
         if not self.page.evaluate("window.sgim.control()"):
             self.page.click("#control")
         self.in_control()
-        self.page.select_option("#tempo", "0.5")
         self.page.focus("#stage")
 
     def begin(self) -> None:

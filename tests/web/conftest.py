@@ -170,6 +170,8 @@ def hand(opened: Hand) -> Hand:
     page.set_viewport_size(VIEWPORT)
     page.click("#tab-teach")
     opened.take_control()
+    page.select_option("#tempo", "0.5")
+    page.focus("#stage")
     if opened.state() != "practice":
         page.keyboard.press("ArrowLeft")
         opened.wait("window.sgim.state() === 'practice'")

@@ -80,8 +80,7 @@ def visit(browser: Any, url: str, context: Any = None) -> Hand:
     page = context.new_page()
     page.goto(url)
     hand = Hand(page)
-    hand.in_control()
-    page.focus("#stage")
+    hand.take_control()
     return hand
 
 
@@ -149,8 +148,9 @@ def test_a_server_that_is_killed_in_a_take_loses_nothing_and_teaches_no_half_of_
 ) -> None:
     lesson = teach(path, "--port", "0")
     beside = Teaching("watch", str(path), "--teach", "--port", "0")
+    context = browser.new_context(viewport=VIEWPORT)
     try:
-        hand = visit(browser, beside.url)
+        hand = visit(browser, beside.url, context)
         hand.wait_text("#asked", "asks you")
         hand.begin()
         hand.drag([(-10.0 * i, -3.0 * i) for i in range(8)], lift=False)
@@ -160,8 +160,9 @@ def test_a_server_that_is_killed_in_a_take_loses_nothing_and_teaches_no_half_of_
         beside = Teaching("watch", str(path), "--teach", "--port", beside.port)
         hand.page.keyboard.press("Space")
         assert not events(path, Answered, Demonstrated)
-        again = visit(browser, beside.url, hand.page.context)
-        hand.page.close()
+        hand.wait("localStorage.getItem('sgim.draft') !== null")
+        hand.page.close()  # it would be back, and in control, before the other
+        again = visit(browser, beside.url, context)
         again.wait("window.sgim.state() === 'assessed'")
         again.page.keyboard.press("ArrowLeft")
         draw(again)
@@ -169,12 +170,13 @@ def test_a_server_that_is_killed_in_a_take_loses_nothing_and_teaches_no_half_of_
         again.page.keyboard.press("ArrowRight")
         assert not LetterBox(path).said(["none"])
         beside = Teaching("watch", str(path), "--teach", "--port", beside.port)
-        last = visit(browser, beside.url, again.page.context)
         again.page.close()
+        last = visit(browser, beside.url, context)
         until(lambda: events(path, Answered, Demonstrated), "what was given arrives")
-        last.page.context.close()
+        last.page.close()
         assert len(events(path, Answered, Demonstrated)) == 1
     finally:
+        context.close()
         beside.kill()
         lesson.kill()
 
