@@ -73,16 +73,21 @@ def test_the_fast_model_lands_near_the_full_one() -> None:
     assert np.nanmedian(apart) < 0.02
 
 
-def test_the_landing_lies_between_the_positions_before_and_after_it() -> None:
+@pytest.mark.parametrize("fast", [True, False])
+def test_the_landing_lies_between_the_positions_before_and_after_it(fast: bool) -> None:
+    world = FishingRod(0.0, fast=fast)
     for policy in random_policies(10, seed=2):
-        outcome = STILL.execute(policy)
+        outcome = world.execute(policy)
+        _, path = world.positions(policy)
+        wet = path[:, -1, 2] <= 0
+        assert bool(outcome) == wet.any()
         if not outcome:
             continue
-        _, path = STILL.positions(policy)
-        after = int(np.argmax(path[:, -1, 2] <= 0))
+        after = int(np.argmax(wet))
         before, below = path[after - 1, -1], path[after, -1]
         share = before[2] / (before[2] - below[2])
-        np.testing.assert_allclose(outcome["float"], (before + share * (below - before))[:2])
+        landing = before[:2] + share * (below - before)[:2]
+        np.testing.assert_array_equal(outcome["float"], landing)
 
 
 def test_the_mirrored_movement_lands_at_the_mirrored_place() -> None:
@@ -136,6 +141,31 @@ def test_an_unstable_simulation_is_an_error_and_never_a_landing(
     with pytest.raises(SgimError, match=r"unstable .* count it as failed"):
         coarse.land(lifted)
     assert os.listdir(tmp_path) == []
+
+
+@pytest.mark.parametrize("for_good", [True, False])
+def test_a_float_that_leaps_into_the_water_from_on_high_has_not_landed(
+    for_good: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    simulator = Simulator(FULL)
+    lifted = np.tile(HOME, (300, 1))
+    lifted[:, 2] += np.minimum(np.linspace(0, 3, 300), 1)
+    assert simulator.land(lifted) is None
+    assert simulator.end(lifted)[0][2] > 0.2
+    step, done = mujoco.mj_step, 0
+
+    def leaping(model: mujoco.MjModel, data: mujoco.MjData) -> None:
+        nonlocal done
+        step(model, data)
+        done += 1
+        if done == 200:
+            data.qpos[1] -= 3
+        elif done == 201 and not for_good:
+            data.qpos[1] += 3
+
+    monkeypatch.setattr(mujoco, "mj_step", leaping)
+    with pytest.raises(SgimError, match="unstable"):
+        simulator.land(lifted)
 
 
 @pytest.mark.parametrize("broken", [np.nan, 1e12, 1e4])

@@ -65,6 +65,9 @@ BALL_RADIUS = 0.01
 def rod_model(variant: Variant, *, settling: bool = False) -> str:
     """The model as MJCF text.
 
+    Shapes that cannot touch only give their bodies masses, and are discarded. The one sensor is
+    the float's position.
+
     Args:
         variant: How finely it is simulated.
         settling: Whether to make the model that is used once, to let the line come to rest:
@@ -82,11 +85,12 @@ def rod_model(variant: Variant, *, settling: bool = False) -> str:
     floor = "" if free else f'<geom type="plane" size="5 5 1" pos="0 0 {variant.floor}" {_TOUCH}/>'
     touching = "disable" if free else "enable"
     return (
-        '<mujoco model="fishing rod"><compiler angle="radian"/>'
+        '<mujoco model="fishing rod"><compiler angle="radian" discardvisual="true"/>'
         '<default><geom contype="0" conaffinity="0"/></default>'
         f'<option timestep="{step}" integrator="{integrator}">'
         f'<flag contact="{touching}" constraint="{touching}" autoreset="disable"/></option>'
-        f"<worldbody>{floor}{bodies}</worldbody><actuator>{actuators}</actuator></mujoco>"
+        f"<worldbody>{floor}{bodies}</worldbody><actuator>{actuators}</actuator>"
+        '<sensor><framepos objtype="xbody" objname="float"/></sensor></mujoco>'
     )
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from functools import cache
 from typing import Any
@@ -23,7 +24,9 @@ _FASTEST_FLOAT = 25.0
 class Simulator:
     """The rod, simulated.
 
-    Every movement starts from the same state: at home, with the line hanging at rest.
+    Every movement starts from the same state: at home, with the line hanging at rest. After a
+    Runge-Kutta step MuJoCo's positions are those of its last stage, until they are computed
+    again; the model's sensor tells where the float was as the step began.
 
     Args:
         variant: How finely it is simulated.
@@ -60,19 +63,22 @@ class Simulator:
         """
         step, kinematics = self._mujoco.mj_step, self._mujoco.mj_kinematics
         model, data = self._model, self._data
+        position, before, control = data.xpos[self._float], data.sensordata, data.ctrl
+        farthest = _FASTEST_FLOAT * self.step
         with _Silence(self._mujoco):
             self._begin()
-            position, control = data.xpos[self._float], data.ctrl
-            before = position.copy()
             for row in set_points:
                 control[:] = row
                 step(model, data)
-                # After a Runge-Kutta step positions are those of its last stage.
+                # From so high only an unstable float falls into the water in one step; if it
+                # does, the next one begins under water.
+                if before[2] > farthest:
+                    continue
                 kinematics(model, data)
-                if not position[2] > 0.0:
+                if not (position[2] > 0.0 and before[2] > 0.0):
                     break
-                before[:] = position
-            self._require_stable(before)
+            kinematics(model, data)
+            self._require_stable(before, above=0.0)
         height = float(position[2])
         if height > 0.0:
             return None
@@ -93,14 +99,11 @@ class Simulator:
             SgimError: If the simulation becomes unstable.
         """
         model, data = self._model, self._data
-        position = data.xpos[self._float]
+        position, before, control = data.xpos[self._float], data.sensordata, data.ctrl
         with _Silence(self._mujoco):
             self._begin()
-            before = position.copy()
             for row in set_points:
-                self._mujoco.mj_kinematics(model, data)
-                before[:] = position
-                data.ctrl[:] = row
+                control[:] = row
                 self._mujoco.mj_step(model, data)
             self._mujoco.mj_kinematics(model, data)
             self._require_stable(before)
@@ -139,13 +142,18 @@ class Simulator:
         self._data.act[:] = HOME
         self._mujoco.mj_kinematics(self._model, self._data)
 
-    def _require_stable(self, before: FloatArray) -> None:
-        """Refuse the last state if any step went wrong; ``before`` is where the float was."""
+    def _require_stable(self, before: FloatArray, above: float = -math.inf) -> None:
+        """Refuse the last state if any step went wrong.
+
+        Args:
+            before: Where the float was before the last step, in m.
+            above: The height in m that it must have been above.
+        """
         data = self._data
         speed = float(np.linalg.norm(data.xpos[self._float] - before)) / self.step
         # A state that has just exploded is not counted by MuJoCo before the next step.
         calm = speed < _FASTEST_FLOAT and float(np.abs(data.qvel).max()) < _FASTEST_HINGE
-        if data.warning.number.any() or not calm:
+        if data.warning.number.any() or not (calm and before[2] > above):
             raise SgimError(
                 f"the simulated line became unstable within {data.time:.3f} s: what this movement "
                 "produces is not known; count it as failed"
