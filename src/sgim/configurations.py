@@ -67,10 +67,14 @@ class Configuration(MixtureSettings):
             a demonstration not seen before.
         reached_share: Local search ends an episode when its goal is within the task's tolerance
             and its cost at most this share of what it was before.
+        feeds_map: Whether local search varies policies, where there is noise, by what suits the map
+            that answers, instead of by what is lacking.
         interest: What makes a goal interesting: recent ``"progress"`` in regions, as in the
             thesis; the ``"gain"`` that is expected of a movement; progress in a ``"mixture"`` over
             time, goals and competence, as in chapter 5; or absolute progress, ``"alp-gmm"``.
         goals: How many goals are drawn to choose among; for ``"gain"``.
+        hidden: By how many standard deviations of the noise an outcome may miss a goal so that no
+            gain can be told, and goals are drawn uniformly; 0 for never; for ``"gain"``.
         sharpness: How much a mode is preferred to those that gain less; for ``"gain"``.
         first_demonstrations: Requests of ``demonstrations-first`` before it explores alone.
         demonstration_every: Movements from one demonstration to the next, M of section 3.3.1;
@@ -107,8 +111,10 @@ class Configuration(MixtureSettings):
     sized: bool = True
     news: bool = False
     reached_share: float = 0.5
+    feeds_map: bool = False
     interest: Literal["progress", "gain", "mixture", "alp-gmm"] = "progress"
     goals: int = 3
+    hidden: float = 0.0
     sharpness: float = 3.0
     first_demonstrations: int = 100
     demonstration_every: int = 30
@@ -133,6 +139,8 @@ class Configuration(MixtureSettings):
         if not 0 <= self.seconds_per_trial < math.inf:
             said = self.seconds_per_trial
             raise SettingError(f"seconds_per_trial is {said}, expected seconds, or 0 for little")
+        if not 0 <= self.hidden < math.inf:
+            raise SettingError(f"hidden is {self.hidden}, expected a number of deviations, or 0")
         self.check_mixtures()
 
     def measure(self, task: Task) -> InterestMeasure:
@@ -168,6 +176,8 @@ MODERN = Configuration(
     interest_recent=0.02,
     interest_random_modes=0.05,
     answering="local",
+    feeds_map=True,
+    hidden=8.0,
 )
 CONFIGURATIONS = {c.name: c for c in (THESIS, MODERN)}
 

@@ -105,7 +105,10 @@ class Parts:
                 reached_share=config.reached_share,
             )
         local = LocalSearch(
-            self.model, budget=config.search_movements, reached_share=config.reached_share
+            self.model,
+            budget=config.search_movements,
+            reached_share=config.reached_share,
+            feeds_map=config.feeds_map,
         )
         trials = guided_trials(config.seconds_per_trial)
         return GuidedSearch(local, trials) if trials else local
@@ -175,6 +178,16 @@ class Parts:
             )
         )
 
+    def _hidden(self, kind: str) -> float:
+        """How much must be lacking for a goal of a kind so that noise does not hide gains."""
+        memory = self.model.memory.kinds[kind]
+        if memory.deterministic or not self.config.hidden:
+            return 0.0
+        known = self.model.smoothness(memory)
+        if known is None or not (known.noisy and known.trusted):
+            return 0.0
+        return self.config.hidden * known.deviation
+
     def interest_in(self, modes: Sequence[Mode]) -> InterestMap:
         """The interest map over these modes."""
         config, costs = self.config, {mode.name: mode.cost for mode in modes}
@@ -194,6 +207,7 @@ class Parts:
                 sharpness=config.sharpness,
                 uniform=config.goal_rules[0],
                 goals=config.goals,
+                hidden=self._hidden,
             )
         if config.interest == "mixture":
             return self.mixture_interest(costs)

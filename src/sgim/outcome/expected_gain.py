@@ -55,6 +55,10 @@ class ExpectedGain(Partition):
     is taken, by what is lacking at that very goal now. With equal gains everywhere this is
     random goal babbling; it moves away from that where there is nothing to gain, and to the gaps.
 
+    Where outcomes are noisy, what an attempt gains is soon less than noise, and the edge of what
+    can be reached, where luck goes on being rewarded, would get all attempts. So the first of the
+    few goals is drawn uniformly then, and taken at once if less is lacking there than noise hides.
+
     Args:
         goal_spaces: Kind → goal space; each must be a `Box`.
         modes: Mode name → cost κ, by which gain is divided.
@@ -71,6 +75,8 @@ class ExpectedGain(Partition):
             for proportional choice.
         uniform: Probability to draw a goal of any kind uniformly instead.
         goals: How many goals are drawn to choose among.
+        hidden: How much must be lacking for a goal of a kind, in [0, 1], for noise not to hide what
+            is gained; 0 where there is none.
 
     Raises:
         TypeError: If a goal or context space is not a `Box`.
@@ -93,11 +99,13 @@ class ExpectedGain(Partition):
         sharpness: float = 3.0,
         uniform: float = 0.1,
         goals: int = 3,
+        hidden: Callable[[str], float] = lambda kind: 0.0,
     ) -> None:
         super().__init__(goal_spaces, streams, context_space=context_space, candidates=candidates)
         self.modes = {name: i for i, name in enumerate(modes)}
         self.costs = np.array(list(modes.values()), dtype=np.float64)
         self.lacks = lacks
+        self.hidden = hidden
         self.capacity = capacity
         self.window = window
         self.prior = prior
@@ -217,10 +225,13 @@ class ExpectedGain(Partition):
     ) -> list[tuple[Goal, str]]:
         """Draw a few goals for each generator, and take the best of each few."""
         numbers = np.array([rng.random((self.goals, self._draws)) for rng in rngs])
+        hidden = [self.hidden(kind) for kind in self._kinds]
+        if any(hidden):
+            numbers[:, 0, 0] *= self.uniform  # by the rule that draws uniformly
         rows, places, picks = self._drawn(numbers.reshape(-1, self._draws), offered, context)
         modes = self._modes_drawn(rows, offered, picks)
         kinds = self._table.kind[rows].tolist()
-        chosen = self._best(rows, places, modes, kinds, context)
+        chosen = self._best(rows, places, modes, kinds, context, hidden)
         named: list[tuple[Goal, str]] = []
         for i, mode in zip(chosen, modes[chosen].tolist(), strict=True):
             kind = self._kinds[kinds[i]]
@@ -286,8 +297,12 @@ class ExpectedGain(Partition):
         modes: IntArray,
         kinds: list[int],
         context: Any,
+        hidden: Sequence[float],
     ) -> list[int]:
-        """Which of each few goals has the largest expected gain, by what is lacking there now."""
+        """Which of each few goals has the largest expected gain, by what is lacking there now.
+
+        Or the first of them, if noise hides what is lacking there.
+        """
         if self.goals == 1:
             return list(range(len(rows)))
         gains = self._table.shares[rows, modes] / self.costs[modes]
@@ -295,7 +310,10 @@ class ExpectedGain(Partition):
             members = [i for i, other in enumerate(kinds) if other == kind]
             name = self._kinds[kind]
             goals = places[members, : self.spaces[name].dimension]
-            gains[members] *= self.lacks(name, goals, context)
+            lacks = self.lacks(name, goals, context)
+            gains[members] *= lacks
+            first = np.array(members) % self.goals == 0
+            gains[np.array(members)[first & (lacks < hidden[kind])]] = np.inf
         best = gains.reshape(-1, self.goals).argmax(axis=1).tolist()
         return [self.goals * i + place for i, place in enumerate(best)]
 

@@ -161,7 +161,7 @@ class GuidedSearch:
         signal = math.sqrt(float(smoothness.variance.sum()))
         least, most = self.variation
         effect = lacking * least * (most / least) ** rng.random()
-        effect = max(effect, self.above_noise * math.sqrt(smoothness.noise) * signal)
+        effect = max(effect, self.above_noise * smoothness.deviation)
         # A variation of every coordinate by 1 is as long by the metric as their number's root.
         scale = min(effect * smoothness.length / (signal * math.sqrt(dimension) + 1e-300), 1.0)
         offsets = scale * rng.standard_normal((self.variations, dimension))

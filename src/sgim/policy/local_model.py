@@ -34,8 +34,10 @@ class LocalModel:
     1 by the chance that the kind is not produced at all. That is so if the world says it
     (`Memory.declare_deterministic`), or if there is decidedly no noise in what was tried.
 
-    Where policies or outcomes are not vectors it answers as `Nearest` does, and where there is
-    decidedly noise and no map shows, as `KernelMean` does.
+    Where policies or outcomes are not vectors it answers as `Nearest` does. Where there is
+    decidedly noise and no map shows, or the map misses most policies by little and a few by much,
+    it answers as `KernelMean` does: after some policies outcomes vary much more than after others
+    then, and what like policies did tells that, where a map with one noise for all does not.
 
     Args:
         near_outcomes: How many of the nearest outcomes to choose among.
@@ -65,9 +67,9 @@ class LocalModel:
         """The policy expected to come nearest to each goal."""
         smoothness = self.smoothness(memory)
         exact = memory.deterministic or (smoothness is not None and smoothness.noiseless)
-        if smoothness is not None and smoothness.mapped:
-            if exact:
-                return self._surer(memory, keys, smoothness)
+        if smoothness is not None and exact and smoothness.mapped:
+            return self._surer(memory, keys, smoothness)
+        if smoothness is not None and not exact and smoothness.trusted:
             return [self._answer(memory, key, smoothness, self.near_outcomes) for key in keys]
         noisy = smoothness is not None and smoothness.noisy and not exact
         return (KernelMean() if noisy else Nearest()).answers(memory, keys)

@@ -11,13 +11,15 @@ import numpy as np
 from sgim.memory.memory import IntArray, KindMemory
 from sgim.policy.explorer import Episode, well_reached
 from sgim.policy.model import NearestModel
+from sgim.policy.small_systems import solved
+from sgim.policy.smoothness import Smoothness
 from sgim.records import Goal, Trial
 from sgim.spaces import Box, FloatArray
 
 _BLUR = 0.1  # Policies this much nearer than the farthest, squared, weigh alike: noise.
+_SPREAD = (0.1, 0.3)  # Least and largest size of a variation that feeds a map, over its length.
 _WIDEST = 1.0  # Of the standard deviation of a varied policy's coordinates in the unit box.
 _BLOCK = 128  # Episodes whose arrays are stacked at once, so that they stay in a cache.
-_MANY = 8  # Systems from which on to solve them all at once is faster.
 _SAME = 1e-20  # Of a squared distance between policies in the unit box.
 
 
@@ -112,6 +114,11 @@ class LocalSearch:
     probability equal to the goal's cost, and no less than ``least_global``, a random policy is
     tried instead (thesis algorithm 3.2.4).
 
+    Homing in pays where the best outcome comes again. Where there is noise it may have been luck,
+    answers come from a map that is smoothed over like policies (`LocalModel`), and such a map is
+    fed by policies that lie as far apart as it is about linear. So, once there is one, variations
+    are of that size, whatever is lacking.
+
     Contexts are part of the outcomes here, so a step also makes up for the present context.
 
     Args:
@@ -123,6 +130,7 @@ class LocalSearch:
         least_global: Least probability of a random policy.
         reached_share: An episode has nothing left to gain when its goal is within the task's
             tolerance and its cost at most this share of what it was before.
+        feeds_map: Whether variations are of the size that suits the map, where there is noise.
     """
 
     def __init__(
@@ -134,6 +142,7 @@ class LocalSearch:
         variation: tuple[float, float] = (0.03, 1.5),
         least_global: float = 0.02,
         reached_share: float = 0.5,
+        feeds_map: bool = False,
     ) -> None:
         space = model.memory.task.policy_space
         if not isinstance(space, Box):
@@ -145,6 +154,7 @@ class LocalSearch:
         self.variation = variation
         self.least_global = least_global
         self.reached_share = reached_share
+        self.feeds_map = feeds_map
 
     def begin(self, episode: Episode) -> None:
         """Gather the remembered trials nearest to the goal."""
@@ -227,7 +237,7 @@ class LocalSearch:
         weighted = effects * weights[:, :, None]
         gram = effects.transpose(0, 2, 1) @ weighted
         goals = np.array([s.goal for s in states])
-        shares = weighted @ _solved(gram, goals - origin[:, 0])[:, :, None]
+        shares = weighted @ solved(gram, goals - origin[:, 0])[:, :, None]
         steps = (shares.transpose(0, 2, 1) @ apart)[:, 0]
         lengths = np.einsum("bi,bi->b", steps, steps)
         steps *= np.sqrt(np.minimum(reach / np.maximum(lengths, 1e-300), 1.0))[:, None]
@@ -237,6 +247,13 @@ class LocalSearch:
         point: FloatArray = start[:, 0] + steps
         point += self._variations(episodes, slopes.tolist())
         return point
+
+    def _fed(self, memory: KindMemory) -> Smoothness | None:
+        """The map that trials are to feed; None where there is none, or no noise."""
+        if not self.feeds_map or memory.deterministic:
+            return None
+        known = self.model.smoothness(memory)
+        return known if known is not None and known.trusted and not known.noiseless else None
 
     def _gathered(self, states: Sequence[_State]) -> tuple[FloatArray, FloatArray]:
         """Policies in the unit box and keys of what states of one kind know, in their places."""
@@ -249,13 +266,18 @@ class LocalSearch:
         return policies, keys
 
     def _variations(self, episodes: Sequence[Episode], slopes: list[float]) -> FloatArray:
-        """Random offsets that should each change the outcome by some share of the cost."""
-        (least, most), dimension = self.variation, self.space.dimension
+        """Random offsets that should each change the outcome by some share of the cost.
+
+        Those that feed a map are instead of the size that suits it.
+        """
+        fed = self._fed(episodes[0].state.memory)
+        (least, most), dimension = self.variation if fed is None else _SPREAD, self.space.dimension
         offsets, scales = [], []
         for episode, slope in zip(episodes, slopes, strict=True):
             state, rng = episode.state, episode.rng
-            effect = state.cost * least * (most / least) ** rng.random()
-            scales.append(min(effect / (slope * math.sqrt(dimension) + 1e-300), _WIDEST))
+            whole, slope = (state.cost, slope) if fed is None else (fed.length, 1.0)
+            size = whole * least * (most / least) ** rng.random()
+            scales.append(min(size / (slope * math.sqrt(dimension) + 1e-300), _WIDEST))
             offsets.append(rng.standard_normal(dimension))
         varied: FloatArray = np.array(offsets)
         varied *= np.array(scales)[:, None]
@@ -282,41 +304,3 @@ class LocalSearch:
 def _taken(vectors: FloatArray, places: IntArray) -> FloatArray:
     """Vectors of an array of shape ``(b, room, n)``, by their places in all of it."""
     return vectors.reshape(-1, vectors.shape[2]).take(places, axis=0)
-
-
-def _solved(squares: FloatArray, right: FloatArray) -> FloatArray:
-    """Solve positive semidefinite systems, a little damped.
-
-    For the few coordinates of an outcome that is faster than LAPACK, and elimination needs no
-    pivots here.
-
-    Args:
-        squares: Matrices, shape ``(b, n, n)``.
-        right: Right-hand sides, shape ``(b, n)``.
-    """
-    n = right.shape[1]
-    if len(right) < _MANY:
-        rows, sides = squares.tolist(), right.tolist()
-        return np.array([_eliminated(m, r, n) for m, r in zip(rows, sides, strict=True)])
-    columns = [list(row) for row in squares.transpose(1, 2, 0).copy()]
-    return np.array(_eliminated(columns, list(right.T.copy()), n)).T
-
-
-def _eliminated(rows: list[list[Any]], right: list[Any], n: int) -> list[Any]:
-    """Solve by elimination; the entries are numbers, or arrays with an entry a system."""
-    trace = rows[0][0]
-    for i in range(1, n):
-        trace = trace + rows[i][i]
-    damping = 1e-6 / n * trace + 1e-300
-    for i in range(n):
-        rows[i][i] = rows[i][i] + damping
-        for j in range(i):
-            factor = rows[i][j] / rows[j][j]
-            for k in range(j + 1, n):
-                rows[i][k] = rows[i][k] - factor * rows[j][k]
-            right[i] = right[i] - factor * right[j]
-    for i in range(n - 1, -1, -1):
-        for j in range(i + 1, n):
-            right[i] = right[i] - rows[i][j] * right[j]
-        right[i] = right[i] / rows[i][i]
-    return right

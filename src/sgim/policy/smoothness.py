@@ -9,6 +9,7 @@ processes", Journal of the Royal Statistical Society B 50(2), 1988).
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
@@ -21,6 +22,8 @@ Neighbourhood = tuple[FloatArray, FloatArray]
 
 _LENGTHS = 2.0 ** np.arange(-3.0, 4.0)  # Over the median distance between policies.
 _NOISES = np.append(0.0, 10.0 ** np.arange(-8.0, 0.0, 0.5))  # Over the signal.
+_EVEN = 0.6  # Where noise is less even than this, the model takes a few jumps for much noise.
+_NORMAL = 0.4549  # Median of the squares of normally distributed numbers, over their mean.
 _NONE, _SOME = 1e-5, 1e-3  # Up to the one there is no noise, from the other on there is some.
 _ROUNDS = 2  # Of learning the metric.
 _ALIKE = 0.5  # The share of the metric in which all directions count alike.
@@ -48,6 +51,9 @@ class Smoothness:
             neighbourhood.
         explained: Share of the differences between a neighbourhood's outcomes that is foreseen
             when each is left out, noise not counted where it is known; the median neighbourhood's.
+        even: How even the misses are when each is left out, over what the model makes of them: the
+            median of their squares over the mean, 1 if they are normally distributed, little if a
+            few are much larger than the others.
         trials: From how many trials it was learned.
         produced: Share of all policies tried by then that produced such an outcome: a map knows
             nothing of those that did not.
@@ -59,6 +65,7 @@ class Smoothness:
     variance: FloatArray
     evidence: float
     explained: float
+    even: float
     trials: int
     produced: float = 1.0
 
@@ -82,6 +89,11 @@ class Smoothness:
         return self.enough and self.evidence > _DECISIVE
 
     @property
+    def deviation(self) -> float:
+        """Standard deviation of the noise: how far from what is expected outcomes lie by it."""
+        return math.sqrt(self.noise * float(self.variance.sum()))
+
+    @property
     def noiseless(self) -> bool:
         """Whether there is decidedly none."""
         return self.evidence < -_DECISIVE
@@ -92,6 +104,11 @@ class Smoothness:
         clear = self.produced == 1 and self.evidence > _DECISIVE and self.noise <= _CLEAR
         least = _MAPPED_CLEARLY if clear and not self.enough else _MAPPED[self.enough]
         return self.explained > least and not self.drowned
+
+    @property
+    def trusted(self) -> bool:
+        """Whether its map can be used where there is noise: that must be as even as it takes it."""
+        return self.mapped and not (self.enough and self.even < _EVEN)
 
     @property
     def drowned(self) -> bool:
@@ -244,9 +261,16 @@ def _fitted(found: Sequence[Neighbourhood], metric: FloatArray, trials: int) -> 
         sums[best] / count,
         float(np.median(with_noise - without)),
         0.0,
+        1.0,
         trials,
     )
-    return replace(fit, explained=float(np.median([_explained(fit, p, y) for p, y in found])))
+    missed = [_left_out(fit, p, y) for p, y in found]
+    shares = [_explained(fit, y, misses) for (_, y), (misses, _) in zip(found, missed, strict=True)]
+    squares = np.concatenate(
+        [np.ravel(misses**2 / (fit.variance * unknown)) for misses, unknown in missed]
+    )
+    even = float(np.median(squares) / max(_NORMAL * float(squares.mean()), _TINY))
+    return replace(fit, explained=float(np.median(shares)), even=even)
 
 
 def _spectrum(correlation: FloatArray, outcomes: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -269,12 +293,23 @@ def _profile(values: FloatArray, loads: FloatArray) -> tuple[FloatArray, FloatAr
     return np.log(spectra).sum(axis=1), (1 / spectra) @ loads
 
 
-def _explained(fit: Smoothness, points: FloatArray, outcomes: FloatArray) -> float:
+def _left_out(
+    fit: Smoothness, points: FloatArray, outcomes: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """What is missed of each trial when it is left out, and how uncertain that was to be.
+
+    Returns:
+        Misses, shape ``(k, d)``, and variances over those of the signal, shape ``(k, 1)``.
+    """
     inverse = fit.inverses(points)
-    centred = outcomes - outcomes.mean(axis=0)
-    missed = float((((inverse @ centred) / np.diagonal(inverse)[:, None]) ** 2).sum())
-    differences = float((centred**2).sum())
-    noise = len(points) * fit.noise * float(fit.variance.sum()) if fit.noisy else 0.0
+    unknown = 1 / np.diagonal(inverse)[:, None]
+    return (inverse @ (outcomes - outcomes.mean(axis=0))) * unknown, unknown
+
+
+def _explained(fit: Smoothness, outcomes: FloatArray, misses: FloatArray) -> float:
+    missed = float((misses**2).sum())
+    differences = float(((outcomes - outcomes.mean(axis=0)) ** 2).sum())
+    noise = len(outcomes) * fit.noise * float(fit.variance.sum()) if fit.noisy else 0.0
     return 1.0 - max(missed - noise, 0.0) / max(differences - noise, missed - noise, _TINY)
 
 
