@@ -157,6 +157,27 @@ def test_of_several_goals_the_one_where_most_is_lacking_now_is_taken() -> None:
     assert np.mean(three) == pytest.approx(7.5, abs=0.2)  # the largest of three
 
 
+@pytest.mark.parametrize(("hidden", "share"), [(0.0, 0.0), (0.3, 0.5)])
+def test_goals_at_which_noise_hides_what_is_gained_are_drawn_evenly(
+    hidden: float, share: float
+) -> None:
+    def lacks(kind: str, places: FloatArray, context: Any) -> FloatArray:
+        return np.where(places[:, 0] < 0.5, 0.2, 1.0)
+
+    one = map_of(
+        spaces={"place": SPACES["place"]},
+        lacks=lacks,
+        goals=8,
+        uniform=0.1,
+        hidden=lambda _: hidden,
+    )
+    points = np.array([g.point[0] for g, _ in chosen(one)])
+    low = points[points < 5]
+    assert len(low) / COUNT == pytest.approx(share, abs=0.03)
+    if share:
+        assert np.percentile(low, [10, 50, 90]) == pytest.approx([0.5, 2.5, 4.5], abs=0.3)
+
+
 def test_sharpness_prefers_the_best_mode_of_a_region() -> None:
     shares = []
     for sharpness in (1.0, 3.0):

@@ -158,6 +158,35 @@ def test_the_reliable_and_the_kernel_way_prefer_what_comes_again() -> None:
         assert chosen[0] < 0.5, way
 
 
+@pytest.mark.parametrize("uneven", [False, True])
+def test_where_noise_is_uneven_a_local_model_answers_by_what_like_policies_did(
+    uneven: bool,
+) -> None:
+    rng = np.random.default_rng(0)
+
+    def scatter(policy: Any) -> float:
+        return (2.0 if int(20 * policy[0]) % 5 == 0 else 0.1) if uneven else 0.1
+
+    def outcome(policy: Any) -> dict[str, Any]:
+        place = plane(policy)["place"] + np.sin(policy @ [3.0, 4.0])
+        return {"place": place + scatter(policy) * rng.standard_normal(2)}
+
+    model = remember(PLANE, outcome, random_policies(PLANE, 600))
+    model.answering = LocalModel()
+    memory = model.memory.kinds["place"]
+    known = model.smoothness(memory)
+    assert known is not None
+    assert known.noisy
+    assert known.trusted != uneven
+    goals = [Goal("place", outcome(b)["place"]) for b in random_policies(PLANE, 50, 1)]
+    keys = model.memory.keys("place", [goal.point for goal in goals], [None] * len(goals))
+    rows, kernel = (
+        [(a.row, a.policy is None) for a in way.answers(memory, keys)]
+        for way in (model.answering, answering_of("kernel"))
+    )
+    assert (rows == kernel) == uneven
+
+
 @pytest.mark.parametrize("way", WAYS)
 def test_an_answer_does_not_depend_on_what_was_asked_before(noisy: Any, way: str) -> None:
     task, memory = noisy.task, noisy.model.memory

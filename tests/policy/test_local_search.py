@@ -122,6 +122,39 @@ def test_variations_change_the_outcome_by_about_the_share_asked_of_what_is_lacki
     assert 0.4 * size * lacking < np.median(effects) < 1.6 * size * lacking
 
 
+@pytest.mark.parametrize("deterministic", [False, True])
+def test_where_there_is_noise_variations_are_of_a_size_that_feeds_the_map(
+    deterministic: bool,
+) -> None:
+    rng = np.random.default_rng(4)
+
+    def bent(policy: np.ndarray) -> dict[str, np.ndarray]:
+        a, b = policy
+        place = np.array([np.sin(3 * a) + b, np.cos(3 * b) - a]) + 3
+        return {"place": place + 0.02 * rng.standard_normal(2)}
+
+    model = remember(PLANE, bent, random_policies(PLANE, 400))
+    if deterministic:
+        model.memory.declare_deterministic()
+    known = model.smoothness(model.memory.kinds["place"])
+    assert known is not None
+    assert known.trusted
+    goal = Goal("place", np.array([3.9, 3.2]))  # nothing is lacking, within noise
+    fed, plain, still = (
+        [
+            proposals(LocalSearch(model, least_global=0, **options), goal, count=1, seed=seed)[0]
+            for seed in range(200)
+        ]
+        for options in ({"feeds_map": True}, {}, {"variation": STRAIGHT})
+    )
+    sizes = np.linalg.norm(np.array(fed) - np.array(still), axis=1) / known.length
+    if deterministic:
+        assert np.array_equal(fed, plain)
+    else:
+        assert 0.1 < np.median(sizes) < 0.3
+        assert np.median(np.linalg.norm(np.array(plain) - np.array(still), axis=1)) < 0.05
+
+
 def test_sizes_of_variations_are_spread_over_all_orders() -> None:
     cloud = CENTRE + 0.05 * np.random.default_rng(3).standard_normal((40, 2))
     model = remember(PLANE, plane, cloud)
