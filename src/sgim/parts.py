@@ -180,13 +180,8 @@ class Parts:
 
     def _hidden(self, kind: str) -> float:
         """How much must be lacking for a goal of a kind so that noise does not hide gains."""
-        memory = self.model.memory.kinds[kind]
-        if memory.deterministic or not self.config.hidden:
-            return 0.0
-        known = self.model.smoothness(memory)
-        if known is None or not (known.noisy and known.trusted):
-            return 0.0
-        return self.config.hidden * known.deviation
+        known = self.model.map_of_noisy(self.model.memory.kinds[kind])
+        return 0.0 if known is None else self.config.hidden * known.deviation
 
     def interest_in(self, modes: Sequence[Mode]) -> InterestMap:
         """The interest map over these modes."""
@@ -207,7 +202,7 @@ class Parts:
                 sharpness=config.sharpness,
                 uniform=config.goal_rules[0],
                 goals=config.goals,
-                hidden=self._hidden,
+                hidden=self._hidden if config.hidden else None,
             )
         if config.interest == "mixture":
             return self.mixture_interest(costs)

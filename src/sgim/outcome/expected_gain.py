@@ -76,7 +76,7 @@ class ExpectedGain(Partition):
         uniform: Probability to draw a goal of any kind uniformly instead.
         goals: How many goals are drawn to choose among.
         hidden: How much must be lacking for a goal of a kind, in [0, 1], for noise not to hide what
-            is gained; 0 where there is none.
+            is gained: 0 where there is none. None if there never is.
 
     Raises:
         TypeError: If a goal or context space is not a `Box`.
@@ -99,7 +99,7 @@ class ExpectedGain(Partition):
         sharpness: float = 3.0,
         uniform: float = 0.1,
         goals: int = 3,
-        hidden: Callable[[str], float] = lambda kind: 0.0,
+        hidden: Callable[[str], float] | None = None,
     ) -> None:
         super().__init__(goal_spaces, streams, context_space=context_space, candidates=candidates)
         self.modes = {name: i for i, name in enumerate(modes)}
@@ -225,7 +225,7 @@ class ExpectedGain(Partition):
     ) -> list[tuple[Goal, str]]:
         """Draw a few goals for each generator, and take the best of each few."""
         numbers = np.array([rng.random((self.goals, self._draws)) for rng in rngs])
-        hidden = [self.hidden(kind) for kind in self._kinds]
+        hidden = [0.0 if self.hidden is None else self.hidden(kind) for kind in self._kinds]
         if any(hidden):
             numbers[:, 0, 0] *= self.uniform  # by the rule that draws uniformly
         rows, places, picks = self._drawn(numbers.reshape(-1, self._draws), offered, context)

@@ -10,11 +10,12 @@ import numpy as np
 from sgim.memory.memory import KindMemory
 from sgim.policy.answering import Answer, KernelMean, Nearest
 from sgim.policy.around import Around, taken
-from sgim.policy.smoothness import Smoothness, learned
+from sgim.policy.smoothness import ENOUGH, Smoothness, learned
 from sgim.spaces import Box, FloatArray
 
 _DECIDEDLY = 0.5  # Of the nearest outcome's error, what another policy may miss by.
-_FIRST, _GROWTH = 16, 2  # The map is learned again whenever there are so many times more trials.
+_FIRST = 16  # Trials, from which the map is learned first.
+_SELDOM = 2  # Doublings after which it is learned again for those who ask at every trial.
 
 
 class LocalModel:
@@ -61,7 +62,7 @@ class LocalModel:
         self.like_policies = like_policies
         self.among = among
         self.steps = steps
-        self._learned: dict[KindMemory, tuple[int, Smoothness | None]] = {}
+        self._learned: dict[KindMemory, dict[int, Smoothness | None]] = {}
 
     def answers(self, memory: KindMemory, keys: FloatArray) -> list[Answer]:
         """The policy expected to come nearest to each goal."""
@@ -96,25 +97,40 @@ class LocalModel:
                     answers[i] = found
         return answers
 
-    def smoothness(self, memory: KindMemory) -> Smoothness | None:
+    def smoothness(self, memory: KindMemory, doublings: int = 1) -> Smoothness | None:
         """What is known of the map from policies to outcomes; None if that is not enough.
 
         It is learned from the first trials, so many that the number depends on how many there are
         and not on when this was asked.
+
+        Args:
+            memory: What is remembered of a kind.
+            doublings: After how many doublings of the number of trials it is learned again.
         """
         boxes = isinstance(memory.policy_space, Box) and isinstance(memory.space, Box)
         if len(memory) < _FIRST or not boxes:
             return None
-        count = _FIRST * _GROWTH ** int(math.log(len(memory) / _FIRST, _GROWTH))
-        known = self._learned.get(memory)
-        if known is None or known[0] != count:
+        times = (len(memory) // _FIRST).bit_length() - 1
+        count = _FIRST << times - times % doublings
+        known = self._learned.setdefault(memory, {})
+        if count not in known:
             outcomes, inputs = taken(memory, slice(0, count))
             found = learned(inputs, outcomes)
             if found is not None:
                 tried = int(memory.trials.rows[count - 1]) + 1
                 found = replace(found, produced=count / tried)
-            known = self._learned[memory] = count, found
-        return known[1]
+            known[count] = found
+        return known[count]
+
+    def map_of_noisy(self, memory: KindMemory) -> Smoothness | None:
+        """The map that answers where outcomes are decidedly noisy; None where they are not.
+
+        It is for those who ask at every trial, and is learned seldom.
+        """
+        if memory.deterministic or len(memory) < ENOUGH:
+            return None
+        known = self.smoothness(memory, _SELDOM)
+        return known if known is not None and known.noisy and known.trusted else None
 
     def prospects(self, memory: KindMemory, answer: Answer, key: FloatArray) -> FloatArray:
         """Outcomes that an answer may produce, each as likely as another.

@@ -12,7 +12,6 @@ from sgim.memory.memory import IntArray, KindMemory
 from sgim.policy.explorer import Episode, well_reached
 from sgim.policy.model import NearestModel
 from sgim.policy.small_systems import solved
-from sgim.policy.smoothness import Smoothness
 from sgim.records import Goal, Trial
 from sgim.spaces import Box, FloatArray
 
@@ -248,13 +247,6 @@ class LocalSearch:
         point += self._variations(episodes, slopes.tolist())
         return point
 
-    def _fed(self, memory: KindMemory) -> Smoothness | None:
-        """The map that trials are to feed; None where there is none, or no noise."""
-        if not self.feeds_map or memory.deterministic:
-            return None
-        known = self.model.smoothness(memory)
-        return known if known is not None and known.trusted and not known.noiseless else None
-
     def _gathered(self, states: Sequence[_State]) -> tuple[FloatArray, FloatArray]:
         """Policies in the unit box and keys of what states of one kind know, in their places."""
         memory = states[0].memory
@@ -270,7 +262,7 @@ class LocalSearch:
 
         Those that feed a map are instead of the size that suits it.
         """
-        fed = self._fed(episodes[0].state.memory)
+        fed = self.model.map_of_noisy(episodes[0].state.memory) if self.feeds_map else None
         (least, most), dimension = self.variation if fed is None else _SPREAD, self.space.dimension
         offsets, scales = [], []
         for episode, slope in zip(episodes, slopes, strict=True):

@@ -279,6 +279,10 @@ class NearestModel:
         """How smooth the map to a kind's outcomes is, and how noisy; None if little is known."""
         return self._local.smoothness(memory)
 
+    def map_of_noisy(self, memory: KindMemory) -> Smoothness | None:
+        """The map that answers where a kind's outcomes are noisy (`LocalModel.map_of_noisy`)."""
+        return self._local.map_of_noisy(memory)
+
     def best_policy(self, goal: Goal, context: Any) -> Any:
         """The policy that the way of answering chooses."""
         return self._policy(goal.kind, self._answer(goal, context))
@@ -329,9 +333,8 @@ class NearestModel:
             apart, _ = memory.nearest(memory.keys.rows[answer.row], 6)
             radius = max(tolerance, 2 * float(apart[-1]))
         may = self._local.prospects(memory, answer, wanted)
-        dimension = may.shape[1]
-        spread = may.std(axis=0, ddof=1 if len(may) > 1 else 0)
-        within = ((may - wanted[:dimension]) ** 2).sum(axis=1) <= radius**2
+        spread = may.std(axis=0, ddof=min(1, len(may) - 1))
+        within = ((may - wanted[: may.shape[1]]) ** 2).sum(axis=1) <= radius**2
         probability = float(within.mean())
         if len(may) > 1:  # Never quite sure of what was seen to vary.
             probability = (float(within.sum()) + 0.5) / (len(may) + 1)

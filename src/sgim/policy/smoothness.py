@@ -17,6 +17,9 @@ import numpy as np
 
 from sgim.spaces import FloatArray
 
+ENOUGH = 256
+"""Trials to know noise by: with fewer, a few jumps of outcomes may look like it."""
+
 Neighbourhood = tuple[FloatArray, FloatArray]
 """Policies, shape ``(k, n)``, and outcomes, shape ``(k, d)``."""
 
@@ -28,8 +31,7 @@ _NONE, _SOME = 1e-5, 1e-3  # Up to the one there is no noise, from the other on 
 _ROUNDS = 2  # Of learning the metric.
 _ALIKE = 0.5  # The share of the metric in which all directions count alike.
 _DECISIVE = 1.0  # Of a difference of logarithms of likelihoods.
-_ENOUGH = 256  # Trials: with fewer, a few jumps of outcomes may look like noise,
-_MAPPED = (0.8, 0.6)  # and more of the differences must be explained for a map to be used.
+_MAPPED = (0.8, 0.6)  # Of the differences that a map in use explains, with fewer trials and enough.
 _CLEAR = 0.01  # But noise of at most this share of the signal is not what jumps look like: then
 _MAPPED_CLEARLY = 0.4  # less will do.
 _DROWNED = 0.2  # Noise over the signal that hides the map.
@@ -72,7 +74,7 @@ class Smoothness:
     @property
     def enough(self) -> bool:
         """Whether it was learned from trials enough to know noise."""
-        return self.trials >= _ENOUGH
+        return self.trials >= ENOUGH
 
     @property
     def modesty(self) -> float:
