@@ -29,8 +29,8 @@ from sgim.records import Outcome
 
 WORLDS = {
     "hockey": ("sgim-d", 2000, 3),
-    "fishing": ("sgim-d:D3", 400, 3),
-    "fishing-full": ("sgim-d:D3", 200, 3),
+    "fishing": ("sgim-d:D3", 1000, 3),
+    "fishing-full": ("sgim-d:D3", 1000, 2),
 }
 """Experiment → learner, movements and repetitions."""
 

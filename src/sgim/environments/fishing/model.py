@@ -54,7 +54,7 @@ class Variant:
     floor: float | None = None
 
 
-FULL = Variant("full", segments=30, step=0.005, armature=1e-5)
+FULL = Variant("full", segments=30, step=0.006, armature=1e-5)
 FAST = Variant("fast", segments=8, step=0.010, armature=2.5e-5)
 FLOOR = Variant("floor", segments=8, step=0.005, armature=2.5e-5, floor=-0.35)
 
