@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from scipy.stats import mannwhitneyu, wilcoxon
 
+from sgim.configurations import CONFIGURATIONS
 from sgim.errors import SgimError, UnknownNameError
 from sgim.events import Evaluated
 from sgim.runs.comparison import compare
@@ -221,6 +222,19 @@ def test_journals_that_do_not_say_how_they_were_measured_are_noted() -> None:
 
 
 OTHER_GOALS = {**GOALS, "digest": "01"}
+
+
+def test_runs_of_before_a_setting_existed_are_of_the_same_learner() -> None:
+    now = dict(CONFIGURATIONS["thesis"].describe())
+    before = {key: value for key, value in now.items() if key not in ("feeds_map", "hidden")}
+    runs = [
+        run("random", seed, [1, 0.5], **configuration)
+        for seed, configuration in enumerate((before, now))
+    ]
+    (found,) = compare(runs).groups
+    assert len(found.runs) == 2
+    with pytest.raises(SgimError, match="both called random, but"):
+        compare([runs[0], run("random", 2, [1, 0.5], **{**now, "hidden": 2.0})])
 
 
 @pytest.mark.parametrize(

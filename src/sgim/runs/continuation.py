@@ -13,12 +13,12 @@ from typing import Any
 
 import numpy as np
 
-from sgim.configurations import configuration_of
 from sgim.errors import JournalError, SgimError
 from sgim.events import Session
 from sgim.learner import Learner
 from sgim.runs.journal import Journal
 from sgim.runs.journal_reading import first_difference
+from sgim.runs.recipes import completed
 from sgim.runs.replay import Replayed, replay
 from sgim.runs.rows import to_json
 
@@ -124,20 +124,9 @@ def session_facts(**more: Any) -> dict[str, Any]:
 def _check(path: str | Path, recorded: Mapping[str, Any], mine: Mapping[str, Any]) -> None:
     given = json.loads(to_json(dict(mine)))
     for key, value in given.items():
-        there = _completed(recorded.get(key)) if key == "recipe" else recorded.get(key)
+        there = completed(recorded.get(key)) if key == "recipe" else recorded.get(key)
         if difference := first_difference(there, value, key):
             raise JournalError(
                 f"{path} is of another run: {difference}; resume it as it was begun, or choose "
                 "another path"
             )
-
-
-def _completed(recipe: Any) -> Any:
-    """A recorded recipe, with the settings that came since as they were before they came."""
-    if not isinstance(recipe, Mapping) or not isinstance(recipe.get("configuration"), Mapping):
-        return recipe
-    try:
-        configuration = configuration_of(recipe["configuration"]).describe()
-    except (SgimError, TypeError, KeyError):  # not one of this library's, or of a later version
-        return recipe
-    return {**recipe, "configuration": json.loads(to_json(configuration))}

@@ -14,6 +14,7 @@ from sgim.runs.codec import unreadable
 from sgim.runs.decoders import Stored, evaluated, session
 from sgim.runs.journal_file import open_file
 from sgim.runs.journal_reading import read_header, read_rows
+from sgim.runs.recipes import completed
 
 _DECODERS: Mapping[str, Callable[[Stored], Evaluated | Session]] = {
     "evaluated": evaluated,
@@ -68,7 +69,8 @@ class MeasuredRun:
     @cached_property
     def recipe(self) -> dict[str, Any]:
         """How the learner was made; empty if unknown."""
-        return self.header.get("recipe") or {}
+        recipe: dict[str, Any] = completed(self.header.get("recipe") or {})
+        return recipe
 
 
 Measured = TypeVar("Measured", bound=MeasuredRun)
