@@ -178,6 +178,15 @@ def test_goals_at_which_noise_hides_what_is_gained_are_drawn_evenly(
         assert np.percentile(low, [10, 50, 90]) == pytest.approx([0.5, 2.5, 4.5], abs=0.3)
 
 
+def test_a_goal_that_is_the_only_one_drawn_follows_interest_under_noise_too() -> None:
+    def points(**options: Any) -> list[float]:
+        one = map_of(spaces={"place": SPACES["place"]}, goals=1, uniform=0.1, **options)
+        attempt(one, [3.0], "alone", 0.4, 0.2, n=10)
+        return [float(g.point[0]) for g, _ in chosen(one, count=50)]
+
+    assert points(hidden=lambda _: 0.5) == points()
+
+
 def test_sharpness_prefers_the_best_mode_of_a_region() -> None:
     shares = []
     for sharpness in (1.0, 3.0):

@@ -76,7 +76,7 @@ class ExpectedGain(Partition):
         uniform: Probability to draw a goal of any kind uniformly instead.
         goals: How many goals are drawn to choose among.
         hidden: How much must be lacking for a goal of a kind, in [0, 1], for noise not to hide what
-            is gained: 0 where there is none. None if there never is.
+            is gained: 0 where there is none. None if there never is; not used if ``goals`` is 1.
 
     Raises:
         TypeError: If a goal or context space is not a `Box`.
@@ -225,7 +225,9 @@ class ExpectedGain(Partition):
     ) -> list[tuple[Goal, str]]:
         """Draw a few goals for each generator, and take the best of each few."""
         numbers = np.array([rng.random((self.goals, self._draws)) for rng in rngs])
-        hidden = [0.0 if self.hidden is None else self.hidden(kind) for kind in self._kinds]
+        hidden = [0.0] * len(self._kinds)
+        if self.hidden is not None and self.goals > 1:
+            hidden = [self.hidden(kind) for kind in self._kinds]
         if any(hidden):
             numbers[:, 0, 0] *= self.uniform  # by the rule that draws uniformly
         rows, places, picks = self._drawn(numbers.reshape(-1, self._draws), offered, context)
