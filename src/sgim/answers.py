@@ -67,8 +67,8 @@ class Answers:
         """Rely on it that a policy always has the outcome that it had: the world says so.
 
         A `Run` says it for worlds that are ``deterministic``. Otherwise whether there is noise is
-        told from the trials, where jumps may look like it. What is learned does not change, but
-        answers do: see `LocalModel`.
+        told from the trials, where jumps may look like it. Both what is tried and what is answered
+        may depend on it, so it is said before the first trial: see `GuidedSearch`, `LocalModel`.
         """
         if isinstance(self.model, NearestModel):
             self.model.memory.declare_deterministic()

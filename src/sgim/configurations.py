@@ -40,6 +40,8 @@ class Configuration(MixtureSettings):
         seconds_per_trial: What a trial may take to decide, in s; 0 if a trial costs little, as in a
             simulator. If it is more, a map over all trials guides the ``"local"`` search while
             they are few: so many that deciding keeps within these seconds (see `guided_trials`).
+        guided_if_noisy: How many trials it guides at least, unless the world says that it is
+            deterministic.
         answering: Which policy answers a goal: that of the ``"nearest"`` outcome, as in the thesis,
             the most ``"reliable"`` one, the best by a ``"kernel"`` mean, or by a ``"local"`` model.
         search_movements: Movements of an autonomous or emulation episode.
@@ -128,6 +130,7 @@ class Configuration(MixtureSettings):
     label_pick: Literal["proportional", "argmax"] = "proportional"
     answering: Literal["nearest", "reliable", "kernel", "local"] = "nearest"
     seconds_per_trial: float = 0.0
+    guided_if_noisy: int = 0
 
     def __post_init__(self) -> None:
         for name in _AT_LEAST_ONE:
@@ -141,6 +144,8 @@ class Configuration(MixtureSettings):
             raise SettingError(f"seconds_per_trial is {said}, expected seconds, or 0 for little")
         if not 0 <= self.hidden < math.inf:
             raise SettingError(f"hidden is {self.hidden}, expected a number of deviations, or 0")
+        if self.guided_if_noisy < 0:
+            raise SettingError(f"guided_if_noisy is {self.guided_if_noisy}, expected 0 or more")
         self.check_mixtures()
 
     def measure(self, task: Task) -> InterestMeasure:
@@ -178,6 +183,7 @@ MODERN = Configuration(
     answering="local",
     feeds_map=True,
     hidden=8.0,
+    guided_if_noisy=256,
 )
 CONFIGURATIONS = {c.name: c for c in (THESIS, MODERN)}
 

@@ -110,8 +110,8 @@ class Parts:
             reached_share=config.reached_share,
             feeds_map=config.feeds_map,
         )
-        trials = guided_trials(config.seconds_per_trial)
-        return GuidedSearch(local, trials) if trials else local
+        trials, if_noisy = guided_trials(config.seconds_per_trial), config.guided_if_noisy
+        return GuidedSearch(local, trials, if_noisy=if_noisy) if trials or if_noisy else local
 
     def _repetition(self) -> Explorer:
         config = self.config

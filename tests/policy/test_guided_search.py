@@ -206,12 +206,60 @@ def test_a_budget_is_a_number_of_seconds(seconds: float) -> None:
         configuration_of({**configuration_of("modern").describe(), "seconds_per_trial": seconds})
 
 
-def test_where_trials_cost_little_the_local_search_decides_alone() -> None:
-    learner = algorithms.make("sagg-riac", ARM.task, seed=1)
+def guided_at(world: PlanarArm, movements: int, monkeypatch: pytest.MonkeyPatch) -> list[int]:
+    """How many trials were remembered whenever a map decided what to try."""
+    asked: list[int] = []
+    varied = GuidedSearch._varied
+
+    def counted(self: GuidedSearch, *others: Any) -> Any:
+        asked.append(len(self.model.memory))
+        return varied(self, *others)
+
+    monkeypatch.setattr(GuidedSearch, "_varied", counted)
+    Run(algorithms.make("sagg-riac", world.task, seed=1), world).go(movements)
+    return asked
+
+
+def test_with_no_seconds_stated_only_the_first_trials_of_a_noisy_world_are_guided(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    asked = guided_at(ARM, 300, monkeypatch)
+    assert len(asked) > 150
+    assert asked[-1] == 255
+
+
+def test_with_no_seconds_stated_nothing_is_guided_in_a_deterministic_world(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    assert guided_at(QUIET, 100, monkeypatch) == []
+
+
+def test_without_seconds_and_first_trials_the_local_search_decides_alone() -> None:
+    learner = algorithms.make("sagg-riac", ARM.task, configuration="modern,guided_if_noisy=0")
     assert isinstance(learner.strategy.modes["autonomous"].explorer, LocalSearch)
     described = configuration_of("modern").describe()
-    del described["seconds_per_trial"]  # as journals of before have it
-    assert configuration_of(described) == configuration_of("modern")
+    del described["seconds_per_trial"], described["guided_if_noisy"]  # as journals of before are
+    assert configuration_of(described) == configuration_of(described | {"guided_if_noisy": 0})
+    with pytest.raises(SettingError, match="guided_if_noisy is -1, expected 0 or more"):
+        configuration_of("modern,guided_if_noisy=-1")
+
+
+def test_where_outcomes_jump_the_local_search_decides() -> None:
+    task = Task(Box(-1, 1, names=list("abcdef")), {"x": Box(-1, 1, names=["a", "b", "c"])})
+    rng = np.random.default_rng(0)
+
+    def world(policy: np.ndarray) -> dict[str, Any]:
+        steep = np.tanh(policy[:3] * [2, 0.2, 20] + 0.3 * np.sin(3 * policy[3:]))
+        return {"x": steep + 0.01 * rng.standard_normal(3)}
+
+    model = remember(task, world, random_policies(task, 80))
+    smoothness = model.smoothness(model.memory.kinds["x"])
+    assert smoothness is not None
+    assert not smoothness.drowned
+    assert not smoothness.guides
+    some = [Goal("x", point) for point in rng.uniform(-0.5, 0.5, (10, 3))]
+    local = LocalSearch(model)
+    assert (proposed(GuidedSearch(local), some) == proposed(local, some)).all()
 
 
 def rows(path: Path) -> list[tuple[object, ...]]:

@@ -51,12 +51,14 @@ class GuidedSearch:
     outcome is the least certain.
 
     With few trials each is worth much, and a map over all of them foresees more than one over the
-    few nearest; with many it would cost more than it brings. Where the map shows nothing, and for
-    kinds of outcome that were hardly produced yet, the local search decides.
+    few nearest; with many it would cost more than it brings. Where the map shows nothing, or misses
+    as if outcomes jumped (`Smoothness.guides`), and for kinds of outcome that were hardly produced
+    yet, the local search decides.
 
     Args:
         local: The search for later; its model is this one's too.
         trials: How many remembered trials are few; `guided_trials` tells it from seconds.
+        if_noisy: How many are few at least, unless the world is known to be deterministic.
         near_outcomes: Of so many trials with the nearest outcomes the map takes its first guess.
         variation: Smallest and largest size of the variation's effect on the outcome, as a share
             of what is lacking.
@@ -70,6 +72,7 @@ class GuidedSearch:
         local: LocalSearch,
         trials: int = 500,
         *,
+        if_noisy: int = 0,
         near_outcomes: int = 8,
         variation: tuple[float, float] = (0.5, 1.5),
         above_noise: float = 2.0,
@@ -79,6 +82,7 @@ class GuidedSearch:
         self.local = local
         self.model = local.model
         self.trials = trials
+        self.if_noisy = if_noisy
         self.near_outcomes = near_outcomes
         self.variation = variation
         self.above_noise = above_noise
@@ -100,7 +104,7 @@ class GuidedSearch:
 
     def propose(self, episodes: Sequence[Episode]) -> list[Any]:
         """What the map expects to come near, varied; or what the local search proposes."""
-        if len(self.model.memory) >= self.trials:
+        if len(self.model.memory) >= max(self.trials, self.if_noisy):
             self._maps.clear()
             return self.local.propose(episodes)
         policies = [self._proposed(episode) for episode in episodes]
@@ -115,6 +119,8 @@ class GuidedSearch:
         """The guided proposal for an episode; None if there is no map, or it says nothing."""
         assert episode.goal is not None
         memory, space = self.model.memory.kinds[episode.goal.kind], self.local.space
+        if memory.deterministic and len(self.model.memory) >= self.trials:
+            return None
         # Of outcomes far beyond all bounds a map may say anything.
         with np.errstate(all="ignore"):
             try:
@@ -134,9 +140,9 @@ class GuidedSearch:
         return space.decode(point)
 
     def _map(self, memory: KindMemory) -> OutcomeMap | None:
-        """The map of a kind's outcomes, up to date; None if little is known, or noise hides it."""
+        """The map of a kind's outcomes, up to date; None if there is none that can guide."""
         smoothness: Smoothness | None = self.model.smoothness(memory)
-        if smoothness is None or smoothness.drowned:
+        if smoothness is None or not smoothness.guides:
             return None
         known = self._maps.get(memory)
         if known is None or known.smoothness is not smoothness:

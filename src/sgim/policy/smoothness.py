@@ -117,6 +117,12 @@ class Smoothness:
         """Whether there is so much noise that no map can show."""
         return self.noise > _DROWNED
 
+    @property
+    def guides(self) -> bool:
+        """Whether its map can say what to try: what it misses must not look like jumps."""
+        jumps = self.even < _EVEN or (self.evidence > _DECISIVE and self.noise > _CLEAR)
+        return not self.drowned and not jumps
+
     def correlation(self, squares: FloatArray) -> FloatArray:
         """Of the signal, over squared distances by the metric."""
         correlation: FloatArray = np.exp(squares * (-0.5 / self.length**2))

@@ -166,7 +166,8 @@ class _Fold:
             case Observed() | Demonstrated() | Suggested() | Available():
                 self.learner.take_unasked(event)
             case Session():
-                pass
+                if says_deterministic(event):
+                    self.learner.declare_deterministic()
         self.after_answer = answered
 
     def _out(self, number: int) -> tuple[Plan, Running]:
