@@ -149,7 +149,7 @@ def test_plot_takes_directories_and_keeps_experiments_apart(sgim, finished, tmp_
         sgim("run", "throwing", "--learner", "random", "--movements", "60", "--seed", seed)
     sgim("run", "arm", "--learner", "random", "--movements", "60")
     names = {Path(line).name for line in sgim("plot", "runs", finished).out.split()}
-    assert {"throwing-errors.png", "throwing-choices.png"} < names
+    assert {"throwing-errors.png", "throwing-choices.png", "errors-by-world.png"} < names
     assert {"arm-random-0-errors.png", "arm-random-0-choices.png"} < names
     assert not {"arm-random-0-costs.png", "arm-random-0-strategies.png"} & names
     assert {"throwing-explored.png", "throwing-random-0-explored.png"} < names

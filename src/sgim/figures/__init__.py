@@ -5,6 +5,7 @@ from __future__ import annotations
 from sgim.figures.choices import choices
 from sgim.figures.choices_by_kind import choices_by_kind
 from sgim.figures.error_curves import error_curves
+from sgim.figures.errors_by_world import errors_by_world
 from sgim.figures.explored import explored
 from sgim.figures.fishing import fishing_movement
 from sgim.figures.hockey_shots import hockey_shots
@@ -29,6 +30,7 @@ __all__ = [
     "database",
     "draw_tract",
     "error_curves",
+    "errors_by_world",
     "explored",
     "f_measures",
     "fishing_movement",

@@ -77,7 +77,7 @@ def error_curves(
             curves.append(curve(members, kind, band, costs))
         unit, label = _axis(curves, spent, prices)
         for i, (name, drawn) in enumerate(zip(labels, curves, strict=True)):
-            _draw(panel, drawn, unit, name, i)
+            draw_curve(panel, drawn, unit, name, i)
         panel.set_title(kind_title(kind))
         panel.set_xlabel(label)
         panel.set_xlim(left=0)
@@ -97,7 +97,7 @@ def _spending(groups: Mapping[str, Sequence[RecordedRun]]) -> dict[str, list[Spe
     return spent
 
 
-def _draw(axes: Axes, drawn: Curve, unit: float, label: str, number: int) -> None:
+def draw_curve(axes: Axes, drawn: Curve, unit: float, label: str, number: int) -> None:
     """Draw the curve of one learner, unlike those of the others in colour, line and marker."""
     colour = OKABE_ITO[number % len(OKABE_ITO)]
     line = ("-", "--", ":")[number // len(OKABE_ITO) % 3]

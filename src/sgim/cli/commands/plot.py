@@ -15,6 +15,7 @@ from sgim.figures import (
     choices,
     choices_by_kind,
     error_curves,
+    errors_by_world,
     explored,
     of_worlds,
     performance_profiles,
@@ -50,6 +51,9 @@ def command(
     NAME-outcomes   how often each learner's movements ended where
     NAME-goals      how often each learner aimed where
     RUN-explored    what has been explored, for one run of each learner, or for --each
+
+    If there are runs of several experiments, also:
+    errors-by-world total errors over movements, a panel for each experiment
 
     Where objects are recognised, also:
     NAME-recognised pictures recognised over episodes
@@ -89,10 +93,14 @@ def command(
         out.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise SgimError(f"{out} cannot be made ({error.strerror}); choose another --out") from error
+    drawings: list[tuple[str, Callable[[], Figure]]] = []
+    if len(groups) > 1:
+        everything = [run for runs in groups.values() for run in runs]
+        drawings.append(("errors-by-world", partial(errors_by_world, everything, band=band)))
     for name, runs in groups.items():
         stem = runs[0].path.stem if len(runs) == 1 else name
         chosen = [run.path for run in runs] if each else _one_of_each_learner(runs)
-        drawings: list[tuple[str, Callable[[], Figure]]] = [
+        drawings += [
             (f"{stem}-errors", partial(error_curves, runs, band=band)),
             (f"{stem}-costs", partial(error_curves, runs, band=band, prices=prices)),
             *([(f"{stem}-profiles", partial(performance_profiles, runs))] if len(runs) > 1 else []),
@@ -104,20 +112,20 @@ def command(
             *((f"{path.stem}-explored", partial(explored, path)) for path in chosen),
             *of_worlds.drawings(stem, runs, chosen),
         ]
-        for title, draw in drawings:
-            file = out / f"{title}.{format}"
-            try:
-                draw().savefig(file)
-            except NothingToDrawError:
-                continue
-            except SgimError as error:
-                print(f"no {file}: {error}", file=sys.stderr)
-            except OSError as error:
-                raise SgimError(
-                    f"{file} cannot be written ({error.strerror}); choose another --out"
-                ) from error
-            else:
-                print(file)
+    for title, draw in drawings:
+        file = out / f"{title}.{format}"
+        try:
+            draw().savefig(file)
+        except NothingToDrawError:
+            continue
+        except SgimError as error:
+            print(f"no {file}: {error}", file=sys.stderr)
+        except OSError as error:
+            raise SgimError(
+                f"{file} cannot be written ({error.strerror}); choose another --out"
+            ) from error
+        else:
+            print(file)
 
 
 def _one_of_each_learner(runs: list[RecordedRun]) -> list[Path]:
