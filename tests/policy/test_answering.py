@@ -159,7 +159,7 @@ def test_the_reliable_and_the_kernel_way_prefer_what_comes_again() -> None:
 
 
 @pytest.mark.parametrize("uneven", [False, True])
-def test_where_noise_is_uneven_a_local_model_answers_by_what_like_policies_did(
+def test_where_noise_is_uneven_a_local_model_answers_where_outcomes_scatter_little(
     uneven: bool,
 ) -> None:
     rng = np.random.default_rng(0)
@@ -167,9 +167,11 @@ def test_where_noise_is_uneven_a_local_model_answers_by_what_like_policies_did(
     def scatter(policy: Any) -> float:
         return (2.0 if int(20 * policy[0]) % 5 == 0 else 0.1) if uneven else 0.1
 
+    def meant(policy: Any) -> Any:
+        return plane(policy)["place"] + np.sin(policy @ [3.0, 4.0])
+
     def outcome(policy: Any) -> dict[str, Any]:
-        place = plane(policy)["place"] + np.sin(policy @ [3.0, 4.0])
-        return {"place": place + scatter(policy) * rng.standard_normal(2)}
+        return {"place": meant(policy) + scatter(policy) * rng.standard_normal(2)}
 
     model = remember(PLANE, outcome, random_policies(PLANE, 600))
     model.answering = LocalModel()
@@ -180,11 +182,35 @@ def test_where_noise_is_uneven_a_local_model_answers_by_what_like_policies_did(
     assert known.trusted != uneven
     goals = [Goal("place", outcome(b)["place"]) for b in random_policies(PLANE, 50, 1)]
     keys = model.memory.keys("place", [goal.point for goal in goals], [None] * len(goals))
-    rows, kernel = (
-        [(a.row, a.policy is None) for a in way.answers(memory, keys)]
-        for way in (model.answering, answering_of("kernel"))
-    )
-    assert (rows == kernel) == uneven
+    wild = {}
+    for name in ("nearest", "local"):
+        answers = answering_of(name).answers(memory, keys)
+        policies = memory.encoded_policies(np.array([answer.row for answer in answers]))
+        wild[name] = np.mean([scatter(policy) > 1 for policy in policies])
+        assert all(a.policy is None for a in answers) == (uneven or name == "nearest")
+    assert (wild["local"] < 0.5 * wild["nearest"]) == uneven
+
+
+def test_where_outcomes_jump_and_nobody_says_so_a_local_model_is_nearer_than_the_kernel_mean() -> (
+    None
+):
+    task = Task(Box(-1, 1, names=list("abcd")), {"x": Box(-2, 2, names=["u", "v"])})
+
+    def outcome(p: Any) -> dict[str, Any]:
+        return {"x": np.array([p[0] + np.sign(p[1] * p[2]), p[3] + np.sign(p[0] - p[3])])}
+
+    model = remember(task, outcome, random_policies(task, 600))
+    memory = model.memory.kinds["x"]
+    known = model.smoothness(memory)
+    assert known is not None
+    assert known.uneven
+    goals = [Goal("x", outcome(p)["x"]) for p in random_policies(task, 60, 1)]
+    error = {}
+    for name in ("kernel", "local"):
+        model.answering = answering_of(name)
+        reached = [outcome(model.best_policy(goal, None))["x"] - goal.point for goal in goals]
+        error[name] = float(np.linalg.norm(reached, axis=1).mean())
+    assert error["local"] < 0.9 * error["kernel"]
 
 
 @pytest.mark.parametrize("way", WAYS)

@@ -164,19 +164,24 @@ class KernelMean:
     Args:
         near_outcomes: How many of the nearest outcomes to consider.
         near_policies: Over how many of the nearest policies to take the mean.
+        own: How much the distance of the trial's own outcome counts beside the root of that mean.
     """
 
-    def __init__(self, near_outcomes: int = 10, near_policies: int = 10) -> None:
+    def __init__(
+        self, near_outcomes: int = 10, near_policies: int = 10, *, own: float = 0.0
+    ) -> None:
         self.near_outcomes = near_outcomes
         self.near_policies = near_policies
+        self.own = own
 
     def answers(self, memory: KindMemory, keys: FloatArray) -> list[Answer]:
         """The row with the best of neighbourhoods; the nearest where policies are opaque."""
 
         def costs(key: FloatArray, distances: FloatArray, rows: IntArray) -> list[float]:
-            return [
+            squares = [
                 self._mean_square(memory, key, centre) for centre in memory.encoded_policies(rows)
             ]
+            return squares if not self.own else list(np.sqrt(squares) + self.own * distances)
 
         return _least_costly(memory, keys, self.near_outcomes, costs)
 

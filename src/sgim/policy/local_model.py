@@ -38,7 +38,8 @@ class LocalModel:
     Where policies or outcomes are not vectors it answers as `Nearest` does. Where there is
     decidedly noise and no map shows, or the map misses most policies by little and a few by much,
     it answers as `KernelMean` does: after some policies outcomes vary much more than after others
-    then, and what like policies did tells that, where a map with one noise for all does not.
+    then, or jump, and what like policies did tells that, where a map with one noise for all does
+    not. In the second case a trial's own outcome counts too, as it may well come again.
 
     Args:
         near_outcomes: How many of the nearest outcomes to choose among.
@@ -67,13 +68,17 @@ class LocalModel:
     def answers(self, memory: KindMemory, keys: FloatArray) -> list[Answer]:
         """The policy expected to come nearest to each goal."""
         smoothness = self.smoothness(memory)
-        exact = memory.deterministic or (smoothness is not None and smoothness.noiseless)
-        if smoothness is not None and exact and smoothness.mapped:
-            return self._surer(memory, keys, smoothness)
-        if smoothness is not None and not exact and smoothness.trusted:
+        if smoothness is None:
+            return Nearest().answers(memory, keys)
+        if memory.deterministic or smoothness.noiseless:
+            if smoothness.mapped:
+                return self._surer(memory, keys, smoothness)
+            return Nearest().answers(memory, keys)
+        if smoothness.trusted:
             return [self._answer(memory, key, smoothness, self.near_outcomes) for key in keys]
-        noisy = smoothness is not None and smoothness.noisy and not exact
-        return (KernelMean() if noisy else Nearest()).answers(memory, keys)
+        if smoothness.noisy:
+            return KernelMean(own=1.0 if smoothness.uneven else 0.0).answers(memory, keys)
+        return Nearest().answers(memory, keys)
 
     def _surer(self, memory: KindMemory, keys: FloatArray, smoothness: Smoothness) -> list[Answer]:
         """The nearest outcome's policy, or another where that decidedly promises more."""

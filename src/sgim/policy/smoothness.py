@@ -110,7 +110,12 @@ class Smoothness:
     @property
     def trusted(self) -> bool:
         """Whether its map can be used where there is noise: that must be as even as it takes it."""
-        return self.mapped and not (self.enough and self.even < _EVEN)
+        return self.mapped and not self.uneven
+
+    @property
+    def uneven(self) -> bool:
+        """Whether it misses most trials by little and a few by much: noise here and not there."""
+        return self.enough and self.even < _EVEN
 
     @property
     def drowned(self) -> bool:
