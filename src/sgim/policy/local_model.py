@@ -128,14 +128,15 @@ class LocalModel:
         return known[count]
 
     def map_of_noisy(self, memory: KindMemory) -> Smoothness | None:
-        """The map that answers where outcomes are decidedly noisy; None where they are not.
+        """The map that answers where outcomes may be noisy; None if there is decidedly no noise.
 
-        It is for those who ask at every trial, and is learned seldom.
+        It is for those who ask at every trial, and is learned seldom. Where policies have many
+        coordinates noise is long undecided, and the map answers all the same.
         """
         if memory.deterministic or len(memory) < ENOUGH:
             return None
         known = self.smoothness(memory, _SELDOM)
-        return known if known is not None and known.noisy and known.trusted else None
+        return known if known is not None and not known.noiseless and known.trusted else None
 
     def prospects(self, memory: KindMemory, answer: Answer, key: FloatArray) -> FloatArray:
         """Outcomes that an answer may produce, each as likely as another.
