@@ -64,8 +64,10 @@ def errors_by_world(
         scale(panel, "y", np.concatenate([drawn.middle for drawn in curves.values()]))
         panel.grid(axis="y", color="#E5E5E5", linewidth=0.6)
         tidy(panel)
-    figure.supxlabel("movements", fontsize="medium")
-    figure.supylabel("error", fontsize="medium")
+    for panel in panels[-columns:]:  # those that have none beneath
+        panel.set_xlabel("movements")
+    for panel in panels[::columns]:
+        panel.set_ylabel("error")
     fullest = max(range(len(names)), key=lambda i: len(groups[names[i]]))
     add_legend(figure, panels[fullest], legend_columns, BANDS[band])
     return figure
