@@ -99,10 +99,12 @@ def test_a_worker_that_is_killed_costs_no_run_and_the_journals_are_the_same_on_e
 def test_a_run_that_always_kills_its_worker_is_reported_and_takes_no_other_along(
     tmp_path: Path, undisturbed: list[Path]
 ) -> None:
-    results = sweep(runs(tmp_path / "tally", 99), jobs=2, retries=1, out=tmp_path / "out")
+    # By the retries of default: a neighbour may die along once, and once more while the broken
+    # pool of processes is still being taken down.
+    results = sweep(runs(tmp_path / "tally", 99), jobs=2, out=tmp_path / "out")
     assert [r.status for r in results] == ["finished", "failed", "finished", "finished"]
-    assert results[1].attempts == 2
-    assert "died each of 2 times" in results[1].error
-    assert (tmp_path / "tally").read_text() == "dead\n" * 2
+    assert results[1].attempts == 3
+    assert "died each of 3 times" in results[1].error
+    assert (tmp_path / "tally").read_text() == "dead\n" * 3
     for i in (0, 2, 3):
         assert contents(results[i].path) == contents(undisturbed[i])
