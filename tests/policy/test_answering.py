@@ -1,6 +1,7 @@
 """The ways of answering: which remembered policy, or which other, a goal is answered with."""
 
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -167,11 +168,9 @@ def test_where_noise_is_uneven_a_local_model_answers_where_outcomes_scatter_litt
     def scatter(policy: Any) -> float:
         return (2.0 if int(20 * policy[0]) % 5 == 0 else 0.1) if uneven else 0.1
 
-    def meant(policy: Any) -> Any:
-        return plane(policy)["place"] + np.sin(policy @ [3.0, 4.0])
-
     def outcome(policy: Any) -> dict[str, Any]:
-        return {"place": meant(policy) + scatter(policy) * rng.standard_normal(2)}
+        place = plane(policy)["place"] + np.sin(policy @ [3.0, 4.0])
+        return {"place": place + scatter(policy) * rng.standard_normal(2)}
 
     model = remember(PLANE, outcome, random_policies(PLANE, 600))
     model.answering = LocalModel()
@@ -189,6 +188,22 @@ def test_where_noise_is_uneven_a_local_model_answers_where_outcomes_scatter_litt
         wild[name] = np.mean([scatter(policy) > 1 for policy in policies])
         assert all(a.policy is None for a in answers) == (uneven or name == "nearest")
     assert (wild["local"] < 0.5 * wild["nearest"]) == uneven
+
+
+def test_the_map_of_noisy_outcomes_is_known_while_noise_is_undecided() -> None:
+    undecided = PlanarArm(40, limit=np.radians(7))
+    still = PlanarArm(12, limit=np.radians(10), noise=0)
+    for arm, given in ((undecided, True), (still, False)):
+        rng = np.random.default_rng(1)
+        outcome = partial(arm.execute, context=None, rng=rng)
+        model = remember(arm.task, outcome, random_policies(arm.task, 300))
+        model.answering = LocalModel()
+        memory = model.memory.kinds["hand"]
+        known = model.smoothness(memory)
+        assert known is not None
+        assert not known.noisy
+        assert known.noiseless != given
+        assert (model.map_of_noisy(memory) is not None) == given
 
 
 def test_where_outcomes_jump_and_nobody_says_so_a_local_model_is_nearer_than_the_kernel_mean() -> (

@@ -179,10 +179,8 @@ def test_seconds_are_turned_into_trials_by_operations_and_not_by_a_clock() -> No
         assert operations[0] <= seconds * OPERATIONS_PER_SECOND < operations[1]
 
 
-@pytest.mark.parametrize("seconds", [0.4, 1.0])
-def test_no_map_is_asked_once_the_budget_is_used_up(
-    seconds: float, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def guided_at(run: Run, movements: int, monkeypatch: pytest.MonkeyPatch) -> list[int]:
+    """Go on; how many trials were remembered whenever a map decided what to try."""
     asked: list[int] = []
     varied = GuidedSearch._varied
 
@@ -191,10 +189,18 @@ def test_no_map_is_asked_once_the_budget_is_used_up(
         return varied(self, *others)
 
     monkeypatch.setattr(GuidedSearch, "_varied", counted)
+    run.go(movements)
+    return asked
+
+
+@pytest.mark.parametrize("seconds", [0.4, 1.0])
+def test_no_map_is_asked_once_the_budget_is_used_up(
+    seconds: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
     most = guided_trials(seconds)
     configuration = f"modern,seconds_per_trial={seconds}"
     learner = algorithms.make("sagg-riac", QUIET.task, configuration=configuration, seed=1)
-    Run(learner, QUIET).go(most + 60)
+    asked = guided_at(Run(learner, QUIET), most + 60, monkeypatch)
     assert asked[-1] == most - 1
     assert len(asked) > 0.7 * most
     assert not learner.strategy.modes["autonomous"].explorer._maps  # type: ignore[attr-defined]
@@ -206,24 +212,10 @@ def test_a_budget_is_a_number_of_seconds(seconds: float) -> None:
         configuration_of({**configuration_of("modern").describe(), "seconds_per_trial": seconds})
 
 
-def guided_at(world: PlanarArm, movements: int, monkeypatch: pytest.MonkeyPatch) -> list[int]:
-    """How many trials were remembered whenever a map decided what to try."""
-    asked: list[int] = []
-    varied = GuidedSearch._varied
-
-    def counted(self: GuidedSearch, *others: Any) -> Any:
-        asked.append(len(self.model.memory))
-        return varied(self, *others)
-
-    monkeypatch.setattr(GuidedSearch, "_varied", counted)
-    Run(algorithms.make("sagg-riac", world.task, seed=1), world).go(movements)
-    return asked
-
-
 def test_with_no_seconds_stated_only_the_first_trials_of_a_noisy_world_are_guided(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    asked = guided_at(ARM, 300, monkeypatch)
+    asked = guided_at(Run(algorithms.make("sagg-riac", ARM.task, seed=1), ARM), 300, monkeypatch)
     assert len(asked) > 150
     assert asked[-1] == 255
 
@@ -231,7 +223,8 @@ def test_with_no_seconds_stated_only_the_first_trials_of_a_noisy_world_are_guide
 def test_with_no_seconds_stated_nothing_is_guided_in_a_deterministic_world(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    assert guided_at(QUIET, 100, monkeypatch) == []
+    learner = algorithms.make("sagg-riac", QUIET.task, seed=1)
+    assert guided_at(Run(learner, QUIET), 100, monkeypatch) == []
 
 
 def test_without_seconds_and_first_trials_the_local_search_decides_alone() -> None:
