@@ -75,8 +75,9 @@ class Configuration(MixtureSettings):
             thesis; the ``"gain"`` that is expected of a movement; progress in a ``"mixture"`` over
             time, goals and competence, as in chapter 5; or absolute progress, ``"alp-gmm"``.
         goals: How many goals are drawn to choose among; for ``"gain"``.
-        hidden: By how many standard deviations of the noise an outcome may miss a goal so that no
-            gain can be told, and goals are drawn uniformly; 0 for never; for ``"gain"``.
+        beyond_noise: By how many standard deviations of the noise an attempt must come nearer to
+            its goal for that not to be luck, where outcomes are noisy; 0 if noise is not heeded;
+            for ``"gain"``.
         sharpness: How much a mode is preferred to those that gain less; for ``"gain"``.
         first_demonstrations: Requests of ``demonstrations-first`` before it explores alone.
         demonstration_every: Movements from one demonstration to the next, M of section 3.3.1;
@@ -116,7 +117,7 @@ class Configuration(MixtureSettings):
     feeds_map: bool = False
     interest: Literal["progress", "gain", "mixture", "alp-gmm"] = "progress"
     goals: int = 3
-    hidden: float = 0.0
+    beyond_noise: float = 0.0
     sharpness: float = 3.0
     first_demonstrations: int = 100
     demonstration_every: int = 30
@@ -142,8 +143,9 @@ class Configuration(MixtureSettings):
         if not 0 <= self.seconds_per_trial < math.inf:
             said = self.seconds_per_trial
             raise SettingError(f"seconds_per_trial is {said}, expected seconds, or 0 for little")
-        if not 0 <= self.hidden < math.inf:
-            raise SettingError(f"hidden is {self.hidden}, expected a number of deviations, or 0")
+        if not 0 <= self.beyond_noise < math.inf:
+            said = self.beyond_noise
+            raise SettingError(f"beyond_noise is {said}, expected a number of deviations, or 0")
         if self.guided_if_noisy < 0:
             raise SettingError(f"guided_if_noisy is {self.guided_if_noisy}, expected 0 or more")
         self.check_mixtures()
@@ -182,7 +184,7 @@ MODERN = Configuration(
     interest_random_modes=0.05,
     answering="local",
     feeds_map=True,
-    hidden=8.0,
+    beyond_noise=0.5,
     guided_if_noisy=256,
 )
 CONFIGURATIONS = {c.name: c for c in (THESIS, MODERN)}

@@ -11,6 +11,7 @@ from sgim.learner import Learner
 from sgim.memory import Memory
 from sgim.outcome import (
     AbsoluteProgress,
+    BeyondNoise,
     ExpectedGain,
     InterestMap,
     MixtureInterest,
@@ -178,10 +179,15 @@ class Parts:
             )
         )
 
-    def _hidden(self, kind: str) -> float:
-        """How much must be lacking for a goal of a kind so that noise does not hide gains."""
-        known = self.model.map_of_noisy(self.model.memory.kinds[kind])
-        return 0.0 if known is None else self.config.hidden * known.deviation
+    def _noise(self) -> BeyondNoise | None:
+        """How goals are drawn where outcomes are noisy; None if that is not heeded."""
+
+        def deviation(kind: str) -> float | None:
+            known = self.model.map_of_noisy(self.model.memory.kinds[kind])
+            return None if known is None else known.deviation
+
+        least = self.config.beyond_noise
+        return BeyondNoise(deviation, self.model.surrounded, least=least) if least else None
 
     def interest_in(self, modes: Sequence[Mode]) -> InterestMap:
         """The interest map over these modes."""
@@ -202,7 +208,7 @@ class Parts:
                 sharpness=config.sharpness,
                 uniform=config.goal_rules[0],
                 goals=config.goals,
-                hidden=self._hidden if config.hidden else None,
+                noise=self._noise(),
             )
         if config.interest == "mixture":
             return self.mixture_interest(costs)

@@ -20,6 +20,7 @@ from sgim.arrays import Arrays
 from sgim.errors import SpaceError, unknown
 
 FloatArray = NDArray[np.float64]
+BoolArray = NDArray[np.bool_]
 
 _LITTLE_ENDIAN = np.dtype("<f8")
 _LARGEST = 1e100  # Of a coordinate's magnitude: squares of scaled differences must not overflow.

@@ -207,3 +207,29 @@ def test_a_copy_of_a_memory_grows_by_itself() -> None:
     memory.add(Trial("ba", {"word": "ba"}))
     assert [memory.trial(number).policy for number in range(2)] == ["ba", "ba"]
     assert [again.trial(number).policy for number in range(2)] == ["ba", "da"]
+
+
+@pytest.mark.parametrize("dimension", [1, 2, 4])
+def test_places_amid_rows_are_surrounded_and_those_beyond_are_not(dimension: int) -> None:
+    space = Box(np.zeros(dimension), np.ones(dimension))
+    memory = Memory(Task(Box(0, 1), {"place": space}))
+    rng = np.random.default_rng(0)
+    low, high = 0.3, 0.7
+    for place in rng.uniform(low, high, (600, dimension)):
+        memory.add(Trial(np.zeros(1), {"place": place}))
+    kind = memory.kinds["place"]
+    amid = rng.uniform(low, high, (500, dimension))
+    assert kind.surrounded(amid).mean() > 0.93  # some are at the border
+    assert [bool(kind.surrounded(place[None])[0]) for place in amid] == kind.surrounded(
+        amid
+    ).tolist()
+    beyond = amid.copy()
+    beyond[:, 0] += 0.8
+    assert not kind.surrounded(beyond).any()
+
+
+def test_nothing_is_surrounded_by_few_rows() -> None:
+    memory = filled([random_trial(i) for i in range(8)])
+    kind = memory.kinds["throw"]
+    assert len(kind) <= 8
+    assert kind.surrounded(kind.keys.rows).tolist() == [False] * len(kind)

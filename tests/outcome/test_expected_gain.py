@@ -8,9 +8,10 @@ import numpy as np
 import pytest
 from tests.helpers import report
 
+from sgim.outcome.beyond_noise import BeyondNoise
 from sgim.outcome.expected_gain import ExpectedGain
 from sgim.records import Goal
-from sgim.spaces import Box, FloatArray
+from sgim.spaces import BoolArray, Box, FloatArray
 from sgim.streams import Streams
 
 SPACES = {"place": Box(0, 10), "throw": Box([-1, 0], [1, 2])}
@@ -157,34 +158,75 @@ def test_of_several_goals_the_one_where_most_is_lacking_now_is_taken() -> None:
     assert np.mean(three) == pytest.approx(7.5, abs=0.2)  # the largest of three
 
 
-@pytest.mark.parametrize(("hidden", "share"), [(0.0, 0.0), (0.3, 0.5)])
-def test_goals_at_which_noise_hides_what_is_gained_are_drawn_evenly(
-    hidden: float, share: float
-) -> None:
-    def lacks(kind: str, places: FloatArray, context: Any) -> FloatArray:
-        return np.where(places[:, 0] < 0.5, 0.2, 1.0)
+def inside_below(border: float) -> BeyondNoise:
+    """Outcomes, with noise of 0.1, lie where the first coordinate is below a border."""
 
-    one = map_of(
-        spaces={"place": SPACES["place"]},
-        lacks=lacks,
-        goals=8,
-        uniform=0.1,
-        hidden=lambda _: hidden,
-    )
-    points = np.array([g.point[0] for g, _ in chosen(one)])
-    low = points[points < 5]
-    assert len(low) / COUNT == pytest.approx(share, abs=0.03)
-    if share:
-        assert np.percentile(low, [10, 50, 90]) == pytest.approx([0.5, 2.5, 4.5], abs=0.3)
+    def surrounded(kind: str, places: FloatArray, context: Any) -> BoolArray:
+        return places[:, 0] < border
+
+    return BeyondNoise(lambda kind: 0.1, surrounded, least=1.0)
+
+
+def at_the_edge(gain: float, noise: BeyondNoise | None, **options: Any) -> ExpectedGain:
+    """Attempts beyond 5 have gained as much; those below nothing."""
+    one = map_of(spaces={"place": SPACES["place"]}, noise=noise, capacity=20, **options)
+    rng = np.random.default_rng(1)
+    for _ in range(400):
+        x = 10 * rng.random()
+        attempt(one, [x], "alone", 0.6, 0.6 - (gain if x > 5 else 0.0))
+    return one
+
+
+@pytest.mark.parametrize(("gain", "beyond"), [(0.09, 0.1), (0.11, 0.5)])
+def test_where_outcomes_are_noisy_goals_beyond_them_are_taken_if_more_than_noise_is_gained(
+    gain: float, beyond: float
+) -> None:
+    points = np.array([g.point[0] for g, _ in chosen(at_the_edge(gain, inside_below(0.5)))])
+    # The chance of an attempt beyond is 1/22, or 21/22.
+    assert np.mean(points > 5) == pytest.approx(beyond, abs=0.07)
+    below = points[points < 5]
+    assert np.percentile(below, [10, 50, 90]) == pytest.approx([0.5, 2.5, 4.5], abs=0.3)
+
+
+def test_without_noise_goals_follow_gains_wherever_outcomes_lie() -> None:
+    def points(noise: BeyondNoise | None) -> list[float]:
+        one = at_the_edge(0.09, noise, modes={"alone": 1.0})
+        return [float(g.point[0]) for g, _ in chosen(one, ["alone"], count=200)]
+
+    noiseless = BeyondNoise(lambda kind: None, inside_below(0.5).surrounded)
+    assert points(noiseless) == points(None)
+    assert np.mean(np.array(points(None)) > 5) > 0.9
 
 
 def test_a_goal_that_is_the_only_one_drawn_follows_interest_under_noise_too() -> None:
-    def points(**options: Any) -> list[float]:
-        one = map_of(spaces={"place": SPACES["place"]}, goals=1, uniform=0.1, **options)
-        attempt(one, [3.0], "alone", 0.4, 0.2, n=10)
+    def points(noise: BeyondNoise | None) -> list[float]:
+        one = at_the_edge(0.09, noise, goals=1)
         return [float(g.point[0]) for g, _ in chosen(one, count=50)]
 
-    assert points(hidden=lambda _: 0.5) == points()
+    assert points(inside_below(0.5)) == points(None)
+
+
+def test_noise_of_one_kind_leaves_the_goals_of_others_to_gains() -> None:
+    noise = BeyondNoise(lambda kind: 0.1 if kind == "throw" else None, inside_below(0.5).surrounded)
+    one = map_of(noise=noise)
+    attempt(one, [3.0], "alone", 0.4, 0.2, n=10)
+    choices = chosen(one)
+    assert share_of(choices, kind="throw") > 0.5
+    assert share_of(choices, kind="place") > 0.1
+
+
+def test_under_noise_the_mode_follows_gains() -> None:
+    one = at_the_edge(0.09, inside_below(1.0))
+    attempt(one, [7.0], "ask", 0.6, 0.1, n=20)
+    asked = [m for g, m in chosen(one) if 6.9 < g.point[0] < 7.1]
+    assert asked.count("ask") > 0.8 * len(asked)
+
+
+def test_several_choices_under_noise_are_those_made_one_by_one() -> None:
+    one = at_the_edge(0.11, inside_below(0.5))
+    together = one.choose_all([np.random.default_rng(i) for i in range(20)], ["alone"], [None] * 20)
+    alone = [one.choose(np.random.default_rng(i), ["alone"], None) for i in range(20)]
+    assert [g.point[0] for g, _ in together] == [g.point[0] for g, _ in alone]
 
 
 def test_sharpness_prefers_the_best_mode_of_a_region() -> None:

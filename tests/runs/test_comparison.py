@@ -226,7 +226,7 @@ OTHER_GOALS = {**GOALS, "digest": "01"}
 
 def test_runs_of_before_a_setting_existed_are_of_the_same_learner() -> None:
     now = dict(CONFIGURATIONS["thesis"].describe())
-    before = {key: value for key, value in now.items() if key not in ("feeds_map", "hidden")}
+    before = {key: value for key, value in now.items() if key not in ("feeds_map", "beyond_noise")}
     runs = [
         run("random", seed, [1, 0.5], **configuration)
         for seed, configuration in enumerate((before, now))
@@ -234,7 +234,7 @@ def test_runs_of_before_a_setting_existed_are_of_the_same_learner() -> None:
     (found,) = compare(runs).groups
     assert len(found.runs) == 2
     with pytest.raises(SgimError, match="both called random, but"):
-        compare([runs[0], run("random", 2, [1, 0.5], **{**now, "hidden": 2.0})])
+        compare([runs[0], run("random", 2, [1, 0.5], **{**now, "beyond_noise": 2.0})])
 
 
 @pytest.mark.parametrize(

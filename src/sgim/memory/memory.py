@@ -11,10 +11,13 @@ from numpy.typing import NDArray
 from sgim.memory.columns import Column
 from sgim.memory.neighbours import NearestNeighbours
 from sgim.records import Trial
-from sgim.spaces import Box, FloatArray, Space
+from sgim.spaces import BoolArray, Box, FloatArray, Space
 from sgim.task import Task
 
 IntArray = NDArray[np.int64]
+
+_NINTH = 9
+_AMID = 0.44  # (1 - 0.44)⁸ = 0.01: how seldom eight even places all lie in the rest of a ball.
 
 
 class PointColumn:
@@ -152,6 +155,23 @@ class KindMemory:
         """How far each of some keys, shape ``(m, d)``, is from the nearest row's; else infinite."""
         self._index_new()
         return self._index.gaps(keys)
+
+    def surrounded(self, keys: FloatArray) -> BoolArray:
+        """Which of some keys, shape ``(m, d)``, are among the rows and not beyond them.
+
+        Amid rows the ball to the nearest one is small beside that to the ninth; from beyond them
+        they are nearly as far. The border is at 0.44 of its volume: amid rows that lie evenly one
+        place in a hundred is taken for one beyond, whatever the dimension. None are among fewer
+        than nine rows.
+        """
+        if len(self) < _NINTH:
+            return np.zeros(len(keys), dtype=np.bool_)
+        if len(keys) == 1:
+            distances = self.nearest(keys[0], _NINTH)[0][None]
+        else:
+            distances = self.nearest_batch(keys, _NINTH)[0]
+        inside: BoolArray = distances[:, 0] <= _AMID ** (1 / keys.shape[1]) * distances[:, -1]
+        return inside
 
     def nearest_policies(self, policy: FloatArray, k: int) -> tuple[FloatArray, IntArray]:
         """The k rows whose policies, scaled to the unit box, are nearest to ``policy``."""

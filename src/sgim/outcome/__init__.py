@@ -1,6 +1,7 @@
 """The middle level: which goal to aim at, by competence, progress and interest."""
 
 from sgim.outcome.absolute_progress import AbsoluteProgress
+from sgim.outcome.beyond_noise import BeyondNoise
 from sgim.outcome.expected_gain import ExpectedGain
 from sgim.outcome.interest import EpisodeReport, Favourite, InterestMap, UniformGoals
 from sgim.outcome.mixture_interest import MixtureInterest
@@ -10,6 +11,7 @@ from sgim.outcome.table import InterestTable
 
 __all__ = [
     "AbsoluteProgress",
+    "BeyondNoise",
     "CompetenceChange",
     "EpisodeReport",
     "ExpectedGain",

@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-from collections import deque
-from collections.abc import Callable, Iterable, Mapping, Sequence
-from functools import partial
-from typing import Any, NamedTuple
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from sgim.outcome.gain_table import GainTable
-from sgim.outcome.interest import EpisodeReport
-from sgim.outcome.partition import BoolArray, Partition, Region
+from sgim.outcome.attempted_regions import AttemptedRegions
+from sgim.outcome.beyond_noise import BeyondNoise
+from sgim.outcome.partition import Region
 from sgim.records import Goal
 from sgim.spaces import FloatArray, Space
 from sgim.streams import Streams
@@ -28,16 +26,7 @@ The goals are scaled to the unit box, shape ``(m, d)``.
 """
 
 
-class Attempt(NamedTuple):
-    """One episode: its place, what was lacking there, the share gained a movement, its mode."""
-
-    place: tuple[float, ...]
-    lack: float
-    share: float
-    mode: int
-
-
-class ExpectedGain(Partition):
+class ExpectedGain(AttemptedRegions):
     """Interest as the gain that a movement is expected to bring, here and now.
 
     The gain expected in a region by a mode is what attempts there have lately found lacking,
@@ -46,18 +35,14 @@ class ExpectedGain(Partition):
     late alike, so that modes can be compared that were tried at different times.
     It is 0 where nothing can be learned: out of reach, or from a teacher who does not help.
 
-    A share is estimated from a mode's last attempts in the region, and, while these are few, from
-    its last ones anywhere for goals of that kind, which start from an optimistic ``prior``. So a
-    useless mode is found out after a few attempts in all, not a few in each region.
-
     Goals are chosen so that the *density* of goals follows the expected gain: a region's weight
     is its gain times its volume. Of a few goals drawn so, the one with the largest expected gain
     is taken, by what is lacking at that very goal now. With equal gains everywhere this is
     random goal babbling; it moves away from that where there is nothing to gain, and to the gaps.
 
-    Where outcomes are noisy, what an attempt gains is soon less than noise, and the edge of what
-    can be reached, where luck goes on being rewarded, would get all attempts. So the first of the
-    few goals is drawn uniformly then, and taken at once if less is lacking there than noise hides.
+    Where outcomes are noisy, gains are mostly luck, and the edge of what can be reached, where luck
+    goes on being rewarded, would get most attempts. There goals are drawn by `BeyondNoise` instead,
+    and only the mode follows the gain expected.
 
     Args:
         goal_spaces: Kind → goal space; each must be a `Box`.
@@ -75,8 +60,8 @@ class ExpectedGain(Partition):
             for proportional choice.
         uniform: Probability to draw a goal of any kind uniformly instead.
         goals: How many goals are drawn to choose among.
-        hidden: How much must be lacking for a goal of a kind, in [0, 1], for noise not to hide what
-            is gained: 0 where there is none. None if there never is; not used if ``goals`` is 1.
+        noise: How goals are drawn of kinds whose outcomes are noisy; None if noise is not heeded,
+            nor is it if ``goals`` is 1.
 
     Raises:
         TypeError: If a goal or context space is not a `Box`.
@@ -99,110 +84,27 @@ class ExpectedGain(Partition):
         sharpness: float = 3.0,
         uniform: float = 0.1,
         goals: int = 3,
-        hidden: Callable[[str], float] | None = None,
+        noise: BeyondNoise | None = None,
     ) -> None:
-        super().__init__(goal_spaces, streams, context_space=context_space, candidates=candidates)
-        self.modes = {name: i for i, name in enumerate(modes)}
-        self.costs = np.array(list(modes.values()), dtype=np.float64)
+        super().__init__(
+            goal_spaces,
+            modes,
+            streams,
+            context_space=context_space,
+            capacity=capacity,
+            candidates=candidates,
+            window=window,
+            kind_window=kind_window,
+            prior=prior,
+            confidence=confidence,
+            sharpness=sharpness,
+        )
         self.lacks = lacks
-        self.hidden = hidden
-        self.capacity = capacity
-        self.window = window
-        self.prior = prior
-        self.confidence = confidence
+        self.noise = noise
         self.uniform = uniform
         self.goals = goals
         self._names = tuple(modes)
-        self._kinds = tuple(self.spaces)
-        dimension = max(box.dimension for box in self.spaces.values())
-        self._draws = 2 + dimension
-        self._table = GainTable(self.costs, dimension, confidence, sharpness)
-        self._recent = {
-            kind: [deque[float](maxlen=kind_window) for _ in modes] for kind in self.spaces
-        }
-        # The shares of each region's attempts by each mode, oldest first, a row a region.
-        self._attempted: list[list[list[float]]] = []
-        self._priors = {kind: np.full(len(modes), float(prior)) for kind in self.spaces}
-        for kind in self.spaces:
-            self._enter(self.plant(kind, []))
-
-    def _enter(self, region: Region) -> None:
-        """Note a new region in the table."""
-        d, row = self.spaces[region.kind].dimension, region.leaf
-        kind = self._kinds.index(region.kind)
-        self._table.enter(row, kind, region.low[:d], region.high[:d])
-        self._table.expect(row, self._priors[region.kind])
-        if row == len(self._attempted):
-            self._attempted.append([])
-        self._attempted[row] = [[] for _ in self.modes]
-
-    def gains(self) -> FloatArray:
-        """The gain expected of a movement in every leaf by every mode, ``(leaves, modes)``."""
-        n, table = len(self.leaves), self._table
-        gains: FloatArray = table.lack[:n, None] * table.shares[:n] / self.costs
-        return gains
-
-    def update(self, report: EpisodeReport) -> None:
-        """Learn what an episode found lacking where its goal was chosen, and what it gained.
-
-        A gain counts as a share of what is usually lacking in the region, at least: to come still
-        nearer to what is nearly reached gains little, and so does emulating what is mastered.
-        Emulation, which pursues another goal, says nothing of what is lacking here.
-        """
-        mode = self.modes.get(report.mode)
-        place = self.place_of(report.chosen, report.context)
-        if mode is None or place is None:
-            return
-        region = self.region_of(report.chosen.kind, place)
-        lacking = float(self._table.lack[region.leaf])
-        before = min(-report.before, 1.0)  # more, where gains in earlier contexts are added
-        kept = _kept_to_its_goal(report)
-        usual = lacking if region.records or not kept else before
-        lack = max(before, usual)
-        gain = report.after - report.before
-        share = gain / (lack * report.movements) if lack > 0 else 0.0
-        found = before if kept else usual
-        region.records.append(Attempt(place, found, share, mode))
-        recent = self._recent[region.kind][mode]
-        recent.append(share)
-        self._priors[region.kind][mode] = (sum(recent) + self.confidence * self.prior) / (
-            len(recent) + self.confidence
-        )
-        shares = self._attempted[region.leaf]
-        shares[mode].append(share)
-        changed = {mode}
-        if len(region.records) > self.capacity:
-            cut = self.best_cut(region, region.records, partial(_gaps, region.records))
-            if cut is not None:
-                self._split(region, *cut)
-                return
-            first = region.records.pop(0).mode
-            del shares[first][0]
-            changed.add(first)
-        self._weigh(region, changed)
-
-    def _split(self, region: Region, axis: int, cut: float) -> None:
-        children = self.divide(region, axis, cut)
-        for child in children:
-            self._enter(child)
-        self._table.lack[children[1].leaf] = self._table.lack[children[0].leaf]
-        for attempt in region.records:
-            child = children[attempt.place[axis] > cut]
-            child.records.append(attempt)
-            self._attempted[child.leaf][attempt.mode].append(attempt.share)
-        region.records = []
-        for child in children:
-            self._weigh(child, range(len(self.costs)))
-
-    def _weigh(self, region: Region, modes: Iterable[int]) -> None:
-        """Estimate what is lacking in a region, and the shares of these modes there."""
-        row, table, shares = region.leaf, self._table, self._attempted[region.leaf]
-        lately = region.records[-self.window :]
-        if lately:
-            table.lack[row] = sum([attempt.lack for attempt in lately]) / len(lately)
-        for mode in modes:
-            table.note(row, mode, shares[mode][-self.window :])
-        table.expect(row, self._priors[region.kind])
+        self._draws = 2 + self._table.low.shape[1]
 
     def choose(
         self, rng: np.random.Generator, modes: Sequence[str], context: Any
@@ -223,23 +125,70 @@ class ExpectedGain(Partition):
     def _chosen(
         self, rngs: Sequence[np.random.Generator], offered: IntArray, context: Any
     ) -> list[tuple[Goal, str]]:
+        """Choose for each generator: by gain, or beyond noise where the kind drawn is noisy."""
+        lucks = self._lucks()
+        if all(luck is None for luck in lucks):
+            return self._by_gain(rngs, offered, context)
+        drawn = [int(rng.random() * len(lucks)) for rng in rngs]
+        chosen: dict[int, tuple[Goal, str]] = {}
+        for kind in dict.fromkeys(drawn):
+            members = [i for i, other in enumerate(drawn) if other == kind]
+            some, luck = [rngs[i] for i in members], lucks[kind]
+            if luck is None:
+                goals = self._by_gain(some, offered, context)
+            else:
+                goals = self._beyond_noise(some, offered, context, kind, luck)
+            chosen.update(zip(members, goals, strict=True))
+        return [chosen[i] for i in range(len(rngs))]
+
+    def _lucks(self) -> list[float | None]:
+        """How much an attempt may gain by luck, for every kind."""
+        if self.noise is None or self.goals == 1:
+            return []
+        return [self.noise.luck(kind, self.spaces[kind].dimension) for kind in self._kinds]
+
+    def _beyond_noise(
+        self,
+        rngs: Sequence[np.random.Generator],
+        offered: IntArray,
+        context: Any,
+        kind: int,
+        luck: float,
+    ) -> list[tuple[Goal, str]]:
+        """Draw goals of a noisy kind, and modes for them by their expected gain."""
+        assert self.noise is not None
+        name = self._kinds[kind]
+
+        def promise(place: FloatArray) -> float:
+            return self.chance_of_gaining(self._around(name, place.tolist(), context), luck)
+
+        places = self.noise.draw(rngs, name, self.spaces[name].dimension, context, promise)
+        rows = np.array([self._around(name, place, context).leaf for place in places.tolist()])
+        modes = self._modes_drawn(rows, offered, np.array([rng.random() for rng in rngs]))
+        return self._named([kind] * len(rngs), places, modes)
+
+    def _by_gain(
+        self, rngs: Sequence[np.random.Generator], offered: IntArray, context: Any
+    ) -> list[tuple[Goal, str]]:
         """Draw a few goals for each generator, and take the best of each few."""
-        numbers = np.array([rng.random((self.goals, self._draws)) for rng in rngs])
-        hidden = [0.0] * len(self._kinds)
-        if self.hidden is not None and self.goals > 1:
-            hidden = [self.hidden(kind) for kind in self._kinds]
-        if any(hidden):
-            numbers[:, 0, 0] *= self.uniform  # by the rule that draws uniformly
-        rows, places, picks = self._drawn(numbers.reshape(-1, self._draws), offered, context)
+        numbers = [rng.random((self.goals, self._draws)) for rng in rngs]
+        drawn = np.array(numbers).reshape(-1, self._draws)
+        rows, places, picks = self._drawn(drawn, offered, context)
         modes = self._modes_drawn(rows, offered, picks)
         kinds = self._table.kind[rows].tolist()
-        chosen = self._best(rows, places, modes, kinds, context, hidden)
+        chosen = self._best(rows, places, modes, kinds, context)
+        return self._named([kinds[i] for i in chosen], places[chosen], modes[chosen])
+
+    def _named(
+        self, kinds: Sequence[int], places: FloatArray, modes: IntArray
+    ) -> list[tuple[Goal, str]]:
+        """Goals of these kinds at places of the unit box, and modes by their names."""
         named: list[tuple[Goal, str]] = []
-        for i, mode in zip(chosen, modes[chosen].tolist(), strict=True):
-            kind = self._kinds[kinds[i]]
-            space = self.spaces[kind]
-            point = space.decode(places[i, : space.dimension])
-            named.append((Goal(kind, point), self._names[mode]))
+        for kind, place, mode in zip(kinds, places, modes.tolist(), strict=True):
+            name = self._kinds[kind]
+            space = self.spaces[name]
+            goal = Goal(name, space.decode(place[: space.dimension]))
+            named.append((goal, self._names[mode]))
         return named
 
     def _drawn(
@@ -299,12 +248,8 @@ class ExpectedGain(Partition):
         modes: IntArray,
         kinds: list[int],
         context: Any,
-        hidden: Sequence[float],
     ) -> list[int]:
-        """Which of each few goals has the largest expected gain, by what is lacking there now.
-
-        Or the first of them, if noise hides what is lacking there.
-        """
+        """Which of each few goals has the largest expected gain, by what is lacking there now."""
         if self.goals == 1:
             return list(range(len(rows)))
         gains = self._table.shares[rows, modes] / self.costs[modes]
@@ -312,26 +257,6 @@ class ExpectedGain(Partition):
             members = [i for i, other in enumerate(kinds) if other == kind]
             name = self._kinds[kind]
             goals = places[members, : self.spaces[name].dimension]
-            lacks = self.lacks(name, goals, context)
-            gains[members] *= lacks
-            first = np.array(members) % self.goals == 0
-            gains[np.array(members)[first & (lacks < hidden[kind])]] = np.inf
+            gains[members] *= self.lacks(name, goals, context)
         best = gains.reshape(-1, self.goals).argmax(axis=1).tolist()
         return [self.goals * i + place for i, place in enumerate(best)]
-
-
-def _gaps(attempts: Sequence[Attempt], below: BoolArray) -> FloatArray:
-    """How far apart the mean gains of two parts of the attempts are, for several ways to part."""
-    gains = np.array([attempt.lack * attempt.share for attempt in attempts])[:, None]
-    counts = below.sum(axis=0)
-    lower, upper = np.where(below, gains, 0.0).sum(axis=0), np.where(below, 0.0, gains).sum(axis=0)
-    gaps: FloatArray = np.abs(lower / counts - upper / (len(attempts) - counts))
-    return gaps
-
-
-def _kept_to_its_goal(report: EpisodeReport) -> bool:
-    """Whether the goal chosen was the one pursued; not so in emulation."""
-    chosen, pursued = report.chosen, report.pursued
-    if pursued is chosen:
-        return True
-    return pursued.kind == chosen.kind and np.array_equal(pursued.point, chosen.point)

@@ -6,13 +6,10 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
 from sgim.records import Goal
-from sgim.spaces import Box, FloatArray, Space
+from sgim.spaces import BoolArray, Box, FloatArray, Space
 from sgim.streams import Streams
-
-BoolArray = NDArray[np.bool_]
 
 
 class Placed(Protocol):

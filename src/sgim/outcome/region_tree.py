@@ -8,11 +8,11 @@ from typing import Any, Literal
 import numpy as np
 
 from sgim.outcome.interest import EpisodeReport
-from sgim.outcome.partition import BoolArray, Partition, Region
+from sgim.outcome.partition import Partition, Region
 from sgim.outcome.progress import InterestMeasure, Record
 from sgim.outcome.weights import BlockSums
 from sgim.records import Goal
-from sgim.spaces import FloatArray, Space
+from sgim.spaces import BoolArray, FloatArray, Space
 from sgim.streams import Streams
 
 

@@ -15,7 +15,7 @@ from sgim.policy.answering import Answer, Answering, Nearest
 from sgim.policy.local_model import LocalModel
 from sgim.policy.smoothness import Smoothness
 from sgim.records import Goal, Solution, Trial
-from sgim.spaces import Box, FloatArray
+from sgim.spaces import BoolArray, Box, FloatArray
 
 _LIKELY = 0.5  # Probability from which on a goal seems reachable.
 
@@ -261,11 +261,20 @@ class NearestModel:
             places: The goals, scaled to the unit box, shape ``(m, d)``.
             context: The context of all of them.
         """
-        if self.memory.task.context_space is not None:
-            here = self.memory.task.context_space.encode(context)
-            places = np.column_stack((places, np.tile(here, (len(places), 1))))
-        costs: FloatArray = np.minimum(self.memory.kinds[kind].gaps(places), 1.0)
+        keys = self._keys(places, context)
+        costs: FloatArray = np.minimum(self.memory.kinds[kind].gaps(keys), 1.0)
         return costs
+
+    def surrounded(self, kind: str, places: FloatArray, context: Any) -> BoolArray:
+        """Whether goals of a kind, as in `lacks`, lie among what was produced, and not beyond."""
+        return self.memory.kinds[kind].surrounded(self._keys(places, context))
+
+    def _keys(self, places: FloatArray, context: Any) -> FloatArray:
+        """The keys of places of the unit box in a context."""
+        space = self.memory.task.context_space
+        if space is None:
+            return places
+        return np.column_stack((places, np.tile(space.encode(context), (len(places), 1))))
 
     def shown_by(self, trial: Trial, goal: Goal, context: Any) -> float:
         """Minus the distance from the trial's outcome to the goal; −1 if it has none."""
