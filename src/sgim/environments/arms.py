@@ -12,7 +12,7 @@ from sgim.environments.obstacle_arm import ObstacleArm
 from sgim.errors import SpaceError
 from sgim.streams import Streams
 
-DRAWN_ARMS = 12
+DRAWN_ARMS = 16
 
 
 def drawn_arm(number: int) -> PlanarArm:
