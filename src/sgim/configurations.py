@@ -73,7 +73,8 @@ class Configuration(MixtureSettings):
             that answers, instead of by what is lacking.
         interest: What makes a goal interesting: recent ``"progress"`` in regions, as in the
             thesis; the ``"gain"`` that is expected of a movement; progress in a ``"mixture"`` over
-            time, goals and competence, as in chapter 5; or absolute progress, ``"alp-gmm"``.
+            time, goals and competence, as in chapter 5; absolute progress, ``"alp-gmm"``; or
+            nothing, for controls that do not choose: ``"uniform"``.
         goals: How many goals are drawn to choose among; for ``"gain"``.
         beyond_noise: By how many standard deviations of the noise an attempt must come nearer to
             its goal for that not to be luck, where outcomes are noisy; 0 if noise is not heeded;
@@ -115,7 +116,7 @@ class Configuration(MixtureSettings):
     news: bool = False
     reached_share: float = 0.5
     feeds_map: bool = False
-    interest: Literal["progress", "gain", "mixture", "alp-gmm"] = "progress"
+    interest: Literal["progress", "gain", "mixture", "alp-gmm", "uniform"] = "progress"
     goals: int = 3
     beyond_noise: float = 0.0
     sharpness: float = 3.0

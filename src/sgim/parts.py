@@ -194,6 +194,8 @@ class Parts:
         config, costs = self.config, {mode.name: mode.cost for mode in modes}
         if self.interest is not None:
             return self.interest(costs)
+        if config.interest == "uniform":
+            return UniformGoals(self.task.goal_spaces)
         if config.interest == "gain":
             return ExpectedGain(
                 self.task.goal_spaces,
