@@ -1,11 +1,13 @@
 """Named learners are made by name or by function, and can be made again from their recipe."""
 
+import numpy as np
 import pytest
 
 import sgim
 from sgim import algorithms
 from sgim.configurations import MODERN
 from sgim.environments import ThrowingArm
+from sgim.environments.arm import PlanarArm
 from sgim.errors import SgimError, UnknownNameError
 from sgim.outcome import UniformGoals
 
@@ -88,3 +90,17 @@ def test_an_interest_map_of_ones_own_takes_the_place_of_the_algorithms() -> None
     assert seen == {"autonomous": 1.0, "mimic T1": 2.0, "emulate T1": 2.0}
     assert learner.recipe is None
     assert learner.ask().id == 0
+
+
+def test_any_learner_has_a_control_that_does_not_choose_its_goals() -> None:
+    task = PlanarArm(2).task
+    control = algorithms.make("sagg-riac", task, configuration="modern,interest=uniform", seed=3)
+    points = []
+    for _ in range(1500):
+        plan = control.ask()
+        assert plan.goal is not None
+        points.append(plan.goal.point)
+        # All that comes out is in one corner, so that interest would not be even.
+        control.tell(plan, {"hand": task.outcome_spaces["hand"].low + 0.01})
+    quarters = np.histogram2d(*np.transpose(points), bins=2)[0] / len(points)
+    assert quarters == pytest.approx(np.full((2, 2), 0.25), abs=0.05)

@@ -13,7 +13,7 @@ from sgim.environments.base import Environment
 from sgim.environments.benchmark_goals import throwing_goals
 from sgim.errors import SettingError, SgimError
 from sgim.learner import Learner
-from sgim.outcome import AbsoluteProgress, MixtureInterest, UniformGoals
+from sgim.outcome import AbsoluteProgress, MixtureInterest
 from sgim.records import Goal
 from sgim.runs import Benchmark, Run
 
@@ -80,15 +80,10 @@ def test_the_control_differs_in_nothing_but_progress() -> None:
 
 
 @pytest.mark.parametrize(
-    ("interest", "made"),
-    [
-        ("mixture", MixtureInterest),
-        ("alp-gmm", AbsoluteProgress),
-        ("uniform", UniformGoals),
-    ],
+    ("interest", "made"), [("mixture", MixtureInterest), ("alp-gmm", AbsoluteProgress)]
 )
 @pytest.mark.parametrize("name", ["sagg-riac", "sgim-acts", "sgim-d"])
-def test_other_learners_can_choose_by_mixtures_too_or_not_at_all(
+def test_other_learners_can_choose_by_mixtures_too(
     name: str, interest: str, made: type[object]
 ) -> None:
     learner = algorithms.make(name, TASK, ["T1"], configuration=f"modern,interest={interest}")

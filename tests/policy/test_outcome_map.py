@@ -102,3 +102,11 @@ def test_contexts_follow_policies() -> None:
     policies = np.arange(6.0).reshape(3, 2)
     assert with_context(policies, np.empty(0)) is policies
     np.testing.assert_array_equal(with_context(policies, np.array([7.0]))[:, 2], [7, 7, 7])
+
+
+def test_where_every_trial_has_the_same_outcome_no_map_is_trusted() -> None:
+    policies = np.random.default_rng(0).random((300, 2))
+    found = learned(policies, np.full((300, 2), 0.01))
+    assert found is not None
+    assert not found.trusted
+    assert not found.guides

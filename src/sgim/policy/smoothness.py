@@ -280,7 +280,10 @@ def _fitted(found: Sequence[Neighbourhood], metric: FloatArray, trials: int) -> 
     missed = [_left_out(fit, p, y) for p, y in found]
     shares = [_explained(fit, y, misses) for (_, y), (misses, _) in zip(found, missed, strict=True)]
     squares = np.concatenate(
-        [np.ravel(misses**2 / (fit.variance * unknown)) for misses, unknown in missed]
+        [
+            np.ravel(misses**2 / np.maximum(fit.variance * unknown, _TINY))
+            for misses, unknown in missed
+        ]
     )
     even = float(np.median(squares) / max(_NORMAL * float(squares.mean()), _TINY))
     return replace(fit, explained=float(np.median(shares)), even=even)
