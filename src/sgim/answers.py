@@ -7,7 +7,8 @@ from typing import Any
 
 from sgim.errors import SgimError
 from sgim.policy.answering import Answering
-from sgim.policy.model import CompetenceModel, InverseModel, NearestModel
+from sgim.policy.competence import CompetenceModel, InverseModel
+from sgim.policy.model import NearestModel
 from sgim.policy.ways import answering_of
 from sgim.records import Solution
 from sgim.task import Task

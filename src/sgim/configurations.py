@@ -76,9 +76,9 @@ class Configuration(MixtureSettings):
             time, goals and competence, as in chapter 5; absolute progress, ``"alp-gmm"``; or
             nothing, for controls that do not choose: ``"uniform"``.
         goals: How many goals are drawn to choose among; for ``"gain"``.
-        beyond_noise: By how many standard deviations of the noise an attempt must come nearer to
-            its goal for that not to be luck, where outcomes are noisy; 0 if noise is not heeded;
-            for ``"gain"``.
+        beyond_noise: By how many standard deviations of the noise, along one coordinate, an attempt
+            must come nearer to its goal for that not to be luck, where outcomes may be noisy; 0 if
+            noise is not heeded; for ``"gain"``.
         sharpness: How much a mode is preferred to those that gain less; for ``"gain"``.
         first_demonstrations: Requests of ``demonstrations-first`` before it explores alone.
         demonstration_every: Movements from one demonstration to the next, M of section 3.3.1;

@@ -25,7 +25,7 @@ from sgim.events import (
     Told,
 )
 from sgim.ledger import Running
-from sgim.policy.model import CompetenceModel
+from sgim.policy.competence import CompetenceModel
 from sgim.records import Demonstration, Outcome, Plan, Report, Trial
 from sgim.strategy.strategy import Strategy
 from sgim.task import Task

@@ -14,8 +14,8 @@ import numpy as np
 from sgim.errors import UnwrittenError
 from sgim.events import Event, Opened, Planned
 from sgim.ledger import Ledger, Running
+from sgim.policy.competence import CompetenceModel, competences
 from sgim.policy.explorer import Episode, Explorer, begin_all
-from sgim.policy.model import CompetenceModel, competences
 from sgim.records import Demonstration, Goal, Plan
 from sgim.spaces import Box
 from sgim.strategy.situation import Choice, Situation

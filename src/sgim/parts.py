@@ -11,12 +11,12 @@ from sgim.learner import Learner
 from sgim.memory import Memory
 from sgim.outcome import (
     AbsoluteProgress,
-    BeyondNoise,
     ExpectedGain,
     InterestMap,
     MixtureInterest,
     RegionTree,
     UniformGoals,
+    WithinReach,
 )
 from sgim.policy import (
     CompetenceModel,
@@ -179,15 +179,15 @@ class Parts:
             )
         )
 
-    def _noise(self) -> BeyondNoise | None:
-        """How goals are drawn where outcomes are noisy; None if that is not heeded."""
+    def _within_reach(self) -> WithinReach | None:
+        """How goals are drawn where outcomes may be noisy; None if that is not heeded."""
 
         def deviation(kind: str) -> float | None:
             known = self.model.map_of_noisy(self.model.memory.kinds[kind])
             return None if known is None else known.deviation
 
         least = self.config.beyond_noise
-        return BeyondNoise(deviation, self.model.surrounded, least=least) if least else None
+        return WithinReach(deviation, self.model.surrounded, least=least) if least else None
 
     def interest_in(self, modes: Sequence[Mode]) -> InterestMap:
         """The interest map over these modes."""
@@ -210,7 +210,7 @@ class Parts:
                 sharpness=config.sharpness,
                 uniform=config.goal_rules[0],
                 goals=config.goals,
-                noise=self._noise(),
+                noisy=self._within_reach(),
             )
         if config.interest == "mixture":
             return self.mixture_interest(costs)

@@ -14,7 +14,7 @@ from sgim.events import Available, Closed, Demonstrated, Ending, Observed, Sugge
 from sgim.ledger import Running
 from sgim.openings import Openings
 from sgim.outcome.interest import EpisodeReport
-from sgim.policy.model import learn_all
+from sgim.policy.competence import learn_all
 from sgim.records import Demonstration, Plan, Report, Trial
 
 

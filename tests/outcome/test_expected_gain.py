@@ -1,15 +1,15 @@
 """How expected gain weighs goals and modes: by what lacks, by shares, by volume, by mode."""
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
 import pytest
 from tests.helpers import report
 
-from sgim.outcome.beyond_noise import BeyondNoise
 from sgim.outcome.expected_gain import ExpectedGain
+from sgim.outcome.within_reach import WithinReach
 from sgim.records import Goal
 from sgim.spaces import BoolArray, Box, FloatArray
 from sgim.streams import Streams
@@ -158,18 +158,25 @@ def test_of_several_goals_the_one_where_most_is_lacking_now_is_taken() -> None:
     assert np.mean(three) == pytest.approx(7.5, abs=0.2)  # the largest of three
 
 
-def inside_below(border: float) -> BeyondNoise:
-    """Outcomes, with noise of 0.1, lie where the first coordinate is below a border."""
-
-    def surrounded(kind: str, places: FloatArray, context: Any) -> BoolArray:
-        return places[:, 0] < border
-
-    return BeyondNoise(lambda kind: 0.1, surrounded, least=1.0)
+def amid(places: FloatArray) -> BoolArray:
+    """Outcomes lie where the first coordinate is in the lower half."""
+    return places[:, 0] < 0.5
 
 
-def at_the_edge(gain: float, noise: BeyondNoise | None, **options: Any) -> ExpectedGain:
-    """Attempts beyond 5 have gained as much; those below nothing."""
-    one = map_of(spaces={"place": SPACES["place"]}, noise=noise, capacity=20, **options)
+def noisy(
+    *kinds: str, among: Callable[[FloatArray], BoolArray] = amid, deviation: float = 0.1
+) -> WithinReach:
+    """Outcomes of some kinds have noise."""
+    return WithinReach(
+        lambda kind: deviation if kind in kinds else None,
+        lambda kind, places, context: among(places),
+        least=1.0,
+    )
+
+
+def at_the_edge(gain: float, reach: WithinReach | None, **options: Any) -> ExpectedGain:
+    """Attempts at places beyond 5 have gained as much; those below nothing."""
+    one = map_of(spaces={"place": SPACES["place"]}, noisy=reach, capacity=20, **options)
     rng = np.random.default_rng(1)
     for _ in range(400):
         x = 10 * rng.random()
@@ -177,56 +184,80 @@ def at_the_edge(gain: float, noise: BeyondNoise | None, **options: Any) -> Expec
     return one
 
 
-@pytest.mark.parametrize(("gain", "beyond"), [(0.09, 0.1), (0.11, 0.5)])
+# The chance of an attempt beyond is 1/22, or 21/22.
+@pytest.mark.parametrize(("gain", "beyond"), [(0.09, 0.043), (0.11, 0.49)])
 def test_where_outcomes_are_noisy_goals_beyond_them_are_taken_if_more_than_noise_is_gained(
     gain: float, beyond: float
 ) -> None:
-    points = np.array([g.point[0] for g, _ in chosen(at_the_edge(gain, inside_below(0.5)))])
-    # The chance of an attempt beyond is 1/22, or 21/22.
-    assert np.mean(points > 5) == pytest.approx(beyond, abs=0.07)
+    points = np.array([g.point[0] for g, _ in chosen(at_the_edge(gain, noisy("place")))])
+    assert np.mean(points > 5) == pytest.approx(beyond, abs=0.02)
     below = points[points < 5]
     assert np.percentile(below, [10, 50, 90]) == pytest.approx([0.5, 2.5, 4.5], abs=0.3)
 
 
+def test_where_nothing_lies_within_reach_goals_are_drawn_evenly_all_the_same() -> None:
+    nowhere = noisy("place", among=lambda places: np.zeros(len(places), dtype=np.bool_))
+    points = np.array([g.point[0] for g, _ in chosen(at_the_edge(0.0, nowhere))])
+    assert np.histogram(points, 4, (0, 10))[0] / len(points) == pytest.approx(0.25, abs=0.04)
+
+
 def test_without_noise_goals_follow_gains_wherever_outcomes_lie() -> None:
-    def points(noise: BeyondNoise | None) -> list[float]:
-        one = at_the_edge(0.09, noise, modes={"alone": 1.0})
+    def points(reach: WithinReach | None) -> list[float]:
+        one = at_the_edge(0.09, reach, modes={"alone": 1.0})
         return [float(g.point[0]) for g, _ in chosen(one, ["alone"], count=200)]
 
-    noiseless = BeyondNoise(lambda kind: None, inside_below(0.5).surrounded)
-    assert points(noiseless) == points(None)
+    assert points(noisy("throw")) == points(None)
     assert np.mean(np.array(points(None)) > 5) > 0.9
 
 
-def test_a_goal_that_is_the_only_one_drawn_follows_interest_under_noise_too() -> None:
-    def points(noise: BeyondNoise | None) -> list[float]:
-        one = at_the_edge(0.09, noise, goals=1)
-        return [float(g.point[0]) for g, _ in chosen(one, count=50)]
-
-    assert points(inside_below(0.5)) == points(None)
-
-
-def test_noise_of_one_kind_leaves_the_goals_of_others_to_gains() -> None:
-    noise = BeyondNoise(lambda kind: 0.1 if kind == "throw" else None, inside_below(0.5).surrounded)
-    one = map_of(noise=noise)
-    attempt(one, [3.0], "alone", 0.4, 0.2, n=10)
-    choices = chosen(one)
-    assert share_of(choices, kind="throw") > 0.5
-    assert share_of(choices, kind="place") > 0.1
+def test_of_several_kinds_only_the_goals_of_noisy_ones_are_drawn_within_reach() -> None:
+    one = map_of(noisy=noisy("throw"), capacity=20)
+    rng = np.random.default_rng(1)
+    for _ in range(400):  # both gain at the edge only, throws no more than by luck
+        x = 10 * rng.random()
+        attempt(one, [x], "alone", 0.6, 0.5 if x > 5 else 0.6)
+        x, y = 2 * rng.random(2)
+        one.update(
+            report([x - 1, y], "alone", before=-0.6, after=-0.55 if x > 1 else -0.6, kind="throw")
+        )
+    choices = chosen(one, ["alone"])
+    assert share_of(choices, kind="throw") > 0.2
+    throws = np.array([g.point[0] for g, _ in choices if g.kind == "throw"])
+    places = np.array([g.point[0] for g, _ in choices if g.kind == "place"])
+    assert np.mean(throws > 0) < 0.1
+    assert np.mean(places > 5) > 0.5
 
 
 def test_under_noise_the_mode_follows_gains() -> None:
-    one = at_the_edge(0.09, inside_below(1.0))
+    one = at_the_edge(0.09, noisy("place", among=lambda places: places[:, 0] < 2))
     attempt(one, [7.0], "ask", 0.6, 0.1, n=20)
     asked = [m for g, m in chosen(one) if 6.9 < g.point[0] < 7.1]
     assert asked.count("ask") > 0.8 * len(asked)
 
 
+def test_what_is_gained_at_a_goal_shown_does_not_count_where_another_was_chosen() -> None:
+    one = at_the_edge(0.0, noisy("place"))
+    for x in np.linspace(5, 10, 200):
+        one.update(
+            report([x], "ask", before=-0.6, after=-0.1, pursued=Goal("place", np.array([2.0])))
+        )
+    assert np.mean(np.array([g.point[0] for g, _ in chosen(one)]) > 5) == pytest.approx(
+        0.1, abs=0.1
+    )
+
+
 def test_several_choices_under_noise_are_those_made_one_by_one() -> None:
-    one = at_the_edge(0.11, inside_below(0.5))
-    together = one.choose_all([np.random.default_rng(i) for i in range(20)], ["alone"], [None] * 20)
-    alone = [one.choose(np.random.default_rng(i), ["alone"], None) for i in range(20)]
-    assert [g.point[0] for g, _ in together] == [g.point[0] for g, _ in alone]
+    one = map_of(noisy=noisy("throw"))
+    attempt(one, [7.0], "ask", 0.6, 0.1, n=20)
+    several = 40
+    together = one.choose_all(
+        [np.random.default_rng(i) for i in range(several)], list(MODES), [None] * several
+    )
+    alone = [one.choose(np.random.default_rng(i), list(MODES), None) for i in range(several)]
+    assert {goal.kind for goal, _ in together} == set(SPACES)
+    assert [(g.kind, g.point.tolist(), m) for g, m in together] == [
+        (g.kind, g.point.tolist(), m) for g, m in alone
+    ]
 
 
 def test_sharpness_prefers_the_best_mode_of_a_region() -> None:

@@ -6,7 +6,8 @@ from hypothesis.extra.numpy import arrays
 from tests.helpers import PLANE, plane, random_policies, remember
 
 from sgim.memory import Memory
-from sgim.policy.model import InverseModel, NearestModel, NoAnswerError
+from sgim.policy.competence import InverseModel, NoAnswerError
+from sgim.policy.model import NearestModel
 from sgim.records import Goal, Trial
 from sgim.spaces import Box, Choices
 from sgim.task import Task

@@ -5,8 +5,9 @@ import pytest
 from tests.helpers import random_policies
 
 from sgim.environments import PlanarArm
+from sgim.policy.learned_smoothness import learned
 from sgim.policy.outcome_map import OutcomeMap, with_context
-from sgim.policy.smoothness import Smoothness, learned
+from sgim.policy.smoothness import Smoothness
 
 ARM = PlanarArm(4, noise=0.01)
 FIRST, ALL = 64, 110
@@ -104,9 +105,23 @@ def test_contexts_follow_policies() -> None:
     np.testing.assert_array_equal(with_context(policies, np.array([7.0]))[:, 2], [7, 7, 7])
 
 
-def test_where_every_trial_has_the_same_outcome_no_map_is_trusted() -> None:
+def test_of_outcomes_that_are_all_the_same_nothing_is_learned() -> None:
     policies = np.random.default_rng(0).random((300, 2))
-    found = learned(policies, np.full((300, 2), 0.01))
-    assert found is not None
-    assert not found.trusted
-    assert not found.guides
+    assert learned(policies, np.full((300, 2), 0.01)) is None
+
+
+@pytest.mark.parametrize("constant", [0.5, 0.01])
+def test_a_coordinate_that_never_changes_says_nothing_of_the_noise_of_others(
+    constant: float,
+) -> None:
+    rng = np.random.default_rng(0)
+    policies = rng.random((300, 2))
+    varying = 0.3 + 0.4 * policies[:, :1] + rng.normal(0, 0.02, (300, 1))
+    alone = learned(policies, varying)
+    beside = learned(policies, np.column_stack((varying, np.full(300, constant))))
+    assert alone is not None
+    assert beside is not None
+    assert alone.trusted
+    assert beside.trusted
+    assert (beside.noise, beside.even) == (alone.noise, alone.even)
+    assert beside.variance.tolist() == [alone.variance[0], 0.0]

@@ -118,7 +118,7 @@ def _description(docstring: str) -> str:
 
 
 def _exit_code(error: SgimError) -> int:
-    from sgim.policy.model import NoAnswerError
+    from sgim.policy.competence import NoAnswerError
     from sgim.runs import RunError
 
     return 1 if isinstance(error, JournalError | RunError | NoAnswerError) else 2

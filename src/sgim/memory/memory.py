@@ -162,14 +162,11 @@ class KindMemory:
         Amid rows the ball to the nearest one is small beside that to the ninth; from beyond them
         they are nearly as far. The border is at 0.44 of its volume: amid rows that lie evenly one
         place in a hundred is taken for one beyond, whatever the dimension. None are among fewer
-        than nine rows.
+        than nine rows, and few where rows repeat each other exactly.
         """
         if len(self) < _NINTH:
             return np.zeros(len(keys), dtype=np.bool_)
-        if len(keys) == 1:
-            distances = self.nearest(keys[0], _NINTH)[0][None]
-        else:
-            distances = self.nearest_batch(keys, _NINTH)[0]
+        distances, _ = self.nearest_batch(keys, _NINTH)
         inside: BoolArray = distances[:, 0] <= _AMID ** (1 / keys.shape[1]) * distances[:, -1]
         return inside
 

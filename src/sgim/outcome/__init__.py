@@ -1,17 +1,16 @@
 """The middle level: which goal to aim at, by competence, progress and interest."""
 
 from sgim.outcome.absolute_progress import AbsoluteProgress
-from sgim.outcome.beyond_noise import BeyondNoise
 from sgim.outcome.expected_gain import ExpectedGain
 from sgim.outcome.interest import EpisodeReport, Favourite, InterestMap, UniformGoals
 from sgim.outcome.mixture_interest import MixtureInterest
 from sgim.outcome.progress import CompetenceChange, InterestMeasure, MeanProgress, Record
 from sgim.outcome.region_tree import RegionTree
 from sgim.outcome.table import InterestTable
+from sgim.outcome.within_reach import WithinReach
 
 __all__ = [
     "AbsoluteProgress",
-    "BeyondNoise",
     "CompetenceChange",
     "EpisodeReport",
     "ExpectedGain",
@@ -24,4 +23,5 @@ __all__ = [
     "Record",
     "RegionTree",
     "UniformGoals",
+    "WithinReach",
 ]

@@ -17,16 +17,16 @@ from sgim.streams import Streams
 
 
 class Attempt(NamedTuple):
-    """One episode: its place, what was lacking there, and what was gained, by which mode.
+    """One episode: its place, what was lacking there, the share gained a movement, its mode.
 
-    Gained was a share of what is usually lacking, a movement; and ``gain`` in all.
+    And how much nearer it came to the goal there, in all; None if it pursued another.
     """
 
     place: tuple[float, ...]
     lack: float
     share: float
     mode: int
-    gain: float
+    nearer: float | None
 
 
 class AttemptedRegions(Partition):
@@ -128,7 +128,7 @@ class AttemptedRegions(Partition):
         gain = report.after - report.before
         share = gain / (lack * report.movements) if lack > 0 else 0.0
         found = before if kept else usual
-        region.records.append(Attempt(place, found, share, mode, gain))
+        region.records.append(Attempt(place, found, share, mode, gain if kept else None))
         recent = self._recent[region.kind][mode]
         recent.append(share)
         self._priors[region.kind][mode] = (sum(recent) + self.confidence * self.prior) / (
@@ -170,15 +170,16 @@ class AttemptedRegions(Partition):
             table.note(row, mode, shares[mode][-self.window :])
         table.expect(row, self._priors[region.kind])
 
-    def chance_of_gaining(self, region: Region, more_than: float) -> float:
-        """How likely an attempt in a region is to come nearer by more, by the last ones there.
+    def chance_of_success(self, region: Region, least: float) -> float:
+        """How likely an attempt in a region is to come nearer by more than so much.
 
-        It is estimated by (successes + 1/2)/(attempts + 1) (R. E. Krichevsky and V. K. Trofimov,
-        "The performance of universal encoding", IEEE Transactions on Information Theory 27, 1981).
+        It is told by the last ones there that pursued their goal, as (successes + 1/2)/(attempts +
+        1) (R. E. Krichevsky and V. K. Trofimov, "The performance of universal encoding", IEEE
+        Transactions on Information Theory 27, 1981).
         """
         lately: list[Attempt] = region.records[-self.window :]
-        won = sum([attempt.gain > more_than for attempt in lately])
-        return (won + 0.5) / (len(lately) + 1)
+        nearer = [attempt.nearer for attempt in lately if attempt.nearer is not None]
+        return (sum([came > least for came in nearer]) + 0.5) / (len(nearer) + 1)
 
 
 def _gaps(attempts: Sequence[Attempt], below: BoolArray) -> FloatArray:

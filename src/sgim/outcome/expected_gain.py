@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sgim.outcome.attempted_regions import AttemptedRegions
-from sgim.outcome.beyond_noise import BeyondNoise
 from sgim.outcome.partition import Region
+from sgim.outcome.within_reach import WithinReach
 from sgim.records import Goal
 from sgim.spaces import FloatArray, Space
 from sgim.streams import Streams
@@ -41,8 +41,8 @@ class ExpectedGain(AttemptedRegions):
     random goal babbling; it moves away from that where there is nothing to gain, and to the gaps.
 
     Where outcomes are noisy, gains are mostly luck, and the edge of what can be reached, where luck
-    goes on being rewarded, would get most attempts. There goals are drawn by `BeyondNoise` instead,
-    and only the mode follows the gain expected.
+    goes on being rewarded, would get most attempts. There goals are drawn `WithinReach` instead,
+    evenly of all kinds, and only the mode follows the gain expected.
 
     Args:
         goal_spaces: Kind → goal space; each must be a `Box`.
@@ -60,8 +60,7 @@ class ExpectedGain(AttemptedRegions):
             for proportional choice.
         uniform: Probability to draw a goal of any kind uniformly instead.
         goals: How many goals are drawn to choose among.
-        noise: How goals are drawn of kinds whose outcomes are noisy; None if noise is not heeded,
-            nor is it if ``goals`` is 1.
+        noisy: How goals are drawn of kinds whose outcomes may be noisy; None to heed no noise.
 
     Raises:
         TypeError: If a goal or context space is not a `Box`.
@@ -84,7 +83,7 @@ class ExpectedGain(AttemptedRegions):
         sharpness: float = 3.0,
         uniform: float = 0.1,
         goals: int = 3,
-        noise: BeyondNoise | None = None,
+        noisy: WithinReach | None = None,
     ) -> None:
         super().__init__(
             goal_spaces,
@@ -100,7 +99,7 @@ class ExpectedGain(AttemptedRegions):
             sharpness=sharpness,
         )
         self.lacks = lacks
-        self.noise = noise
+        self.noisy = noisy
         self.uniform = uniform
         self.goals = goals
         self._names = tuple(modes)
@@ -125,59 +124,64 @@ class ExpectedGain(AttemptedRegions):
     def _chosen(
         self, rngs: Sequence[np.random.Generator], offered: IntArray, context: Any
     ) -> list[tuple[Goal, str]]:
-        """Choose for each generator: by gain, or beyond noise where the kind drawn is noisy."""
+        """Choose by gain; if some kinds may be noisy, draw one of all, and of the rest by gain."""
         lucks = self._lucks()
-        if all(luck is None for luck in lucks):
-            return self._by_gain(rngs, offered, context)
-        drawn = [int(rng.random() * len(lucks)) for rng in rngs]
+        if not lucks:
+            return self._by_gain(rngs, offered, context, self._kinds)
+        rest = [kind for kind in self._kinds if kind not in lucks]
+        drawn = [self._kinds[int(rng.random() * len(self._kinds))] for rng in rngs]
         chosen: dict[int, tuple[Goal, str]] = {}
         for kind in dict.fromkeys(drawn):
             members = [i for i, other in enumerate(drawn) if other == kind]
-            some, luck = [rngs[i] for i in members], lucks[kind]
-            if luck is None:
-                goals = self._by_gain(some, offered, context)
+            some = [rngs[i] for i in members]
+            if kind in lucks:
+                goals = self._within_reach(some, offered, context, kind, lucks[kind])
             else:
-                goals = self._beyond_noise(some, offered, context, kind, luck)
+                goals = self._by_gain(some, offered, context, rest)
             chosen.update(zip(members, goals, strict=True))
         return [chosen[i] for i in range(len(rngs))]
 
-    def _lucks(self) -> list[float | None]:
-        """How much an attempt may gain by luck, for every kind."""
-        if self.noise is None or self.goals == 1:
-            return []
-        return [self.noise.luck(kind, self.spaces[kind].dimension) for kind in self._kinds]
+    def _lucks(self) -> dict[str, float]:
+        """How much an attempt may gain by luck, of kinds whose goals are drawn within reach."""
+        if self.noisy is None:
+            return {}
+        lucks = {kind: self.noisy.luck(kind, box.dimension) for kind, box in self.spaces.items()}
+        return {kind: luck for kind, luck in lucks.items() if luck is not None}
 
-    def _beyond_noise(
+    def _within_reach(
         self,
         rngs: Sequence[np.random.Generator],
         offered: IntArray,
         context: Any,
-        kind: int,
+        kind: str,
         luck: float,
     ) -> list[tuple[Goal, str]]:
         """Draw goals of a noisy kind, and modes for them by their expected gain."""
-        assert self.noise is not None
-        name = self._kinds[kind]
+        assert self.noisy is not None
 
         def promise(place: FloatArray) -> float:
-            return self.chance_of_gaining(self._around(name, place.tolist(), context), luck)
+            return self.chance_of_success(self._around(kind, place.tolist(), context), luck)
 
-        places = self.noise.draw(rngs, name, self.spaces[name].dimension, context, promise)
-        rows = np.array([self._around(name, place, context).leaf for place in places.tolist()])
+        places = self.noisy.draw(rngs, kind, self.spaces[kind].dimension, context, promise)
+        rows = np.array([self._around(kind, place, context).leaf for place in places.tolist()])
         modes = self._modes_drawn(rows, offered, np.array([rng.random() for rng in rngs]))
-        return self._named([kind] * len(rngs), places, modes)
+        return self._named([self._kinds.index(kind)] * len(rngs), places, modes)
 
     def _by_gain(
-        self, rngs: Sequence[np.random.Generator], offered: IntArray, context: Any
+        self,
+        rngs: Sequence[np.random.Generator],
+        offered: IntArray,
+        context: Any,
+        kinds: Sequence[str],
     ) -> list[tuple[Goal, str]]:
-        """Draw a few goals for each generator, and take the best of each few."""
+        """Draw a few goals of some kinds for each generator, and take the best of each few."""
         numbers = [rng.random((self.goals, self._draws)) for rng in rngs]
         drawn = np.array(numbers).reshape(-1, self._draws)
-        rows, places, picks = self._drawn(drawn, offered, context)
+        rows, places, picks = self._drawn(drawn, offered, context, kinds)
         modes = self._modes_drawn(rows, offered, picks)
-        kinds = self._table.kind[rows].tolist()
-        chosen = self._best(rows, places, modes, kinds, context)
-        return self._named([kinds[i] for i in chosen], places[chosen], modes[chosen])
+        of_kind = self._table.kind[rows].tolist()
+        chosen = self._best(rows, places, modes, of_kind, context)
+        return self._named([of_kind[i] for i in chosen], places[chosen], modes[chosen])
 
     def _named(
         self, kinds: Sequence[int], places: FloatArray, modes: IntArray
@@ -192,15 +196,17 @@ class ExpectedGain(AttemptedRegions):
         return named
 
     def _drawn(
-        self, numbers: FloatArray, offered: IntArray, context: Any
+        self, numbers: FloatArray, offered: IntArray, context: Any, kinds: Sequence[str]
     ) -> tuple[IntArray, FloatArray, FloatArray]:
         """Regions, places in them, and what is left of the draw of each, for the mode."""
         table, (rules, picks, shares) = self._table, (numbers[:, 0], numbers[:, 1], numbers[:, 2:])
         leaves: IntArray | None = None
-        if self.context_space is None and len(offered) == len(self.modes):
+        all_kinds, all_modes = len(kinds) == len(self._kinds), len(offered) == len(self.modes)
+        if self.context_space is None and all_kinds and all_modes:
             totals = table.totals[: len(self.leaves)]
         else:
-            leaves = np.array(self.present(context))
+            present = self.present(context)
+            leaves = np.array([row for row in present if self.leaves[row].kind in kinds])
             totals = table.weights[np.ix_(leaves, offered)].sum(axis=1)
         cumulated = totals.cumsum()
         if cumulated[-1] > 0:
@@ -216,7 +222,7 @@ class ExpectedGain(AttemptedRegions):
         places = lows + shares * (table.high[rows] - lows)
         for i, rule in enumerate(rules.tolist()):
             if rule < self.uniform:
-                kind = self._kinds[int(picks[i] * len(self._kinds))]
+                kind = kinds[int(picks[i] * len(kinds))]
                 place = shares[i, : self.spaces[kind].dimension].tolist()
                 rows[i], places[i] = self._around(kind, place, context).leaf, shares[i]
                 left[i] = rule / self.uniform

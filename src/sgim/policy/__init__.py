@@ -1,13 +1,14 @@
 """The lower level: which policy to try for a goal, and what the learner knows."""
 
 from sgim.policy.answering import Answer, Answering, KernelMean, Nearest, Reliable
+from sgim.policy.competence import CompetenceModel, InverseModel, NoAnswerError
 from sgim.policy.explorer import Episode, Explorer
 from sgim.policy.guided_search import GuidedSearch, guided_trials
 from sgim.policy.local_model import LocalModel
 from sgim.policy.local_search import LocalSearch
 from sgim.policy.mixture_model import Learning, MixtureModel
 from sgim.policy.mixture_search import AroundRest, MixtureSearch
-from sgim.policy.model import CompetenceModel, InverseModel, NearestModel, NoAnswerError
+from sgim.policy.model import NearestModel
 from sgim.policy.nelder_mead import NelderMeadSearch
 from sgim.policy.population import (
     CovarianceAdaptation,

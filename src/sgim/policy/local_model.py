@@ -10,7 +10,8 @@ import numpy as np
 from sgim.memory.memory import KindMemory
 from sgim.policy.answering import Answer, KernelMean, Nearest
 from sgim.policy.around import Around, taken
-from sgim.policy.smoothness import ENOUGH, Smoothness, learned
+from sgim.policy.learned_smoothness import learned
+from sgim.policy.smoothness import ENOUGH, Smoothness
 from sgim.spaces import Box, FloatArray
 
 _DECIDEDLY = 0.5  # Of the nearest outcome's error, what another policy may miss by.

@@ -14,7 +14,8 @@ import numpy as np
 
 from sgim.mixtures import Conditional, GaussianMixture, fit, split_starved, updated
 from sgim.mixtures.incremental import falling_rate
-from sgim.policy.model import NearestModel, NoAnswerError
+from sgim.policy.competence import NoAnswerError
+from sgim.policy.model import NearestModel
 from sgim.records import Goal, Solution, Trial
 from sgim.spaces import Box, FloatArray
 from sgim.streams import Streams

@@ -4,103 +4,20 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import Any, NamedTuple, Protocol, runtime_checkable
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from sgim.errors import SgimError
 from sgim.memory import Memory
 from sgim.memory.memory import IntArray, KindMemory
 from sgim.policy.answering import Answer, Answering, Nearest
+from sgim.policy.competence import NoAnswerError
 from sgim.policy.local_model import LocalModel
 from sgim.policy.smoothness import Smoothness
 from sgim.records import Goal, Solution, Trial
 from sgim.spaces import BoolArray, Box, FloatArray
 
 _LIKELY = 0.5  # Probability from which on a goal seems reachable.
-
-
-class NoAnswerError(SgimError, LookupError):
-    """Nothing has been learned that could answer for this goal."""
-
-
-class CompetenceModel(Protocol):
-    """Learns from trials and says how competent the learner is for a goal (the thesis's 𝓛)."""
-
-    def update(self, trial: Trial) -> None:
-        """Learn from one more checked trial."""
-        ...
-
-    def competence(self, goal: Goal, context: Any) -> float:
-        """Competence for a goal in a context; higher is better, the range is the model's."""
-        ...
-
-    def shown_by(self, trial: Trial, goal: Goal, context: Any) -> float | None:
-        """Competence for a goal that one trial alone shows.
-
-        None if trials do not show competence one by one; an episode's progress is then
-        measured by asking `competence` again at its end.
-        """
-        ...
-
-
-def learn_all(
-    model: CompetenceModel,
-    trials: Sequence[Trial],
-    goals: Sequence[Goal | None],
-    contexts: Sequence[Any],
-) -> list[float | None] | None:
-    """Learn from several trials at once, if the model can: if it has a ``learn_all`` of its own.
-
-    Args:
-        model: The model.
-        trials: The trials, in order.
-        goals: The goal that each one's episode pursues; None where nothing is to be said.
-        contexts: The context that each one's episode measures in.
-
-    Returns:
-        What `CompetenceModel.shown_by` says of each, or None if the model learns one by one.
-    """
-    together = getattr(model, "learn_all", None)
-    if together is None:
-        return None
-    shown: list[float | None] = together(trials, goals, contexts)
-    return shown
-
-
-def competences(
-    model: CompetenceModel, goals: Sequence[Goal], contexts: Sequence[Any]
-) -> list[float]:
-    """`CompetenceModel.competence` for several goals: by the model's ``competences`` if it can."""
-    together = getattr(model, "competences", None)
-    if together is None or len(goals) < 2:
-        pairs = zip(goals, contexts, strict=True)
-        return [float(model.competence(goal, context)) for goal, context in pairs]
-    values: list[float] = together(goals, contexts)
-    return values
-
-
-@runtime_checkable
-class InverseModel(Protocol):
-    """Gives the best policy for a goal."""
-
-    def best_policy(self, goal: Goal, context: Any) -> Any:
-        """The policy to execute for a goal; raises `NoAnswerError` if nothing is known."""
-        ...
-
-    def best_policies(self, goals: Sequence[Goal], contexts: Sequence[Any]) -> list[Any]:
-        """As `best_policy` for many goals of one kind at once; None where nothing is known."""
-        ...
-
-    def solve(self, goal: Goal, context: Any, radius: float | None = None) -> Solution:
-        """The policy with what it should produce, its spread, and whether that reaches.
-
-        Args:
-            goal: The goal.
-            context: The context, if the task has contexts.
-            radius: How near, in the unit box, counts as reached; the model's choice if not said.
-        """
-        ...
 
 
 class _Near(NamedTuple):
@@ -261,20 +178,26 @@ class NearestModel:
             places: The goals, scaled to the unit box, shape ``(m, d)``.
             context: The context of all of them.
         """
-        keys = self._keys(places, context)
+        keys = self._keys(kind, places, context)
         costs: FloatArray = np.minimum(self.memory.kinds[kind].gaps(keys), 1.0)
         return costs
 
     def surrounded(self, kind: str, places: FloatArray, context: Any) -> BoolArray:
         """Whether goals of a kind, as in `lacks`, lie among what was produced, and not beyond."""
-        return self.memory.kinds[kind].surrounded(self._keys(places, context))
+        return self.memory.kinds[kind].surrounded(self._keys(kind, places, context))
 
-    def _keys(self, places: FloatArray, context: Any) -> FloatArray:
-        """The keys of places of the unit box in a context."""
-        space = self.memory.task.context_space
-        if space is None:
+    def _keys(self, kind: str, places: FloatArray, context: Any) -> FloatArray:
+        """The keys of goals, scaled to the unit box of their kind, in a context."""
+        task = self.memory.task
+        goals, outcomes = task.goal_spaces[kind], task.outcome_spaces[kind]
+        if goals is not outcomes:
+            assert isinstance(goals, Box)  # others are not scaled
+            places = np.array([outcomes.encode(point) for point in goals.decode(places)])
+        if task.context_space is None:
             return places
-        return np.column_stack((places, np.tile(space.encode(context), (len(places), 1))))
+        return np.column_stack(
+            (places, np.tile(task.context_space.encode(context), (len(places), 1)))
+        )
 
     def shown_by(self, trial: Trial, goal: Goal, context: Any) -> float:
         """Minus the distance from the trial's outcome to the goal; −1 if it has none."""

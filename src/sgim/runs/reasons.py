@@ -7,7 +7,7 @@ from typing import Any
 from sgim.learner import Learner
 from sgim.outcome.expected_gain import ExpectedGain
 from sgim.outcome.region_tree import RegionTree
-from sgim.policy.model import NoAnswerError
+from sgim.policy.competence import NoAnswerError
 from sgim.records import Goal, Plan
 from sgim.runs.letters import plain
 from sgim.spaces import FloatArray

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from sgim.policy.model import InverseModel
+from sgim.policy.competence import InverseModel
 from sgim.records import Goal, Solution, Trial
 from sgim.spaces import Space
 from sgim.task import Task

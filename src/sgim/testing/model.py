@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from sgim.policy.model import CompetenceModel, InverseModel, NoAnswerError
+from sgim.policy.competence import CompetenceModel, InverseModel, NoAnswerError
 from sgim.records import Goal
 from sgim.spaces import Box
 from sgim.streams import Streams

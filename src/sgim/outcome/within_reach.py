@@ -1,4 +1,4 @@
-"""Goals where outcomes are noisy: within what was reached, or where attempts get farther."""
+"""Goals where outcomes may be noisy: within reach, or where attempts get farther."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ The goals are scaled to the unit box, shape ``(m, d)``.
 """
 
 
-class BeyondNoise:
+class WithinReach:
     """Draws goals where gains cannot be told from luck.
 
     An outcome that comes nearer to a goal than all before it is a record. Where outcomes are noisy,
@@ -29,11 +29,11 @@ class BeyondNoise:
     So goals are drawn uniformly. One that lies among the outcomes produced so far is taken, since a
     map is the better the more trials it has there. One beyond them is taken as often as attempts
     there have lately come nearer by more than luck explains: often while the edge gives way, and
-    hardly ever once it is that of what can be reached.
+    seldom once it is that of what can be reached.
 
     Args:
         deviation: Kind → standard deviation of the noise of an outcome, in the unit box; None where
-            there is none, or too little is known.
+            there is decidedly no noise, or too little is known.
         surrounded: Whether goals lie among the outcomes produced so far.
         least: By how many standard deviations, along one coordinate, an attempt must come nearer
             for it not to be luck.
@@ -47,13 +47,13 @@ class BeyondNoise:
         least: float = 0.5,
     ) -> None:
         self._deviation = deviation
-        self.surrounded = surrounded
-        self.least = least
+        self._surrounded = surrounded
+        self._least = least
 
     def luck(self, kind: str, dimension: int) -> float | None:
-        """How much nearer an attempt may come by luck; None where outcomes are not noisy."""
+        """How much nearer an attempt may come by luck; None where goals are not drawn here."""
         deviation = self._deviation(kind)
-        return None if deviation is None else self.least * deviation / math.sqrt(dimension)
+        return None if deviation is None else self._least * deviation / math.sqrt(dimension)
 
     def draw(
         self,
@@ -82,7 +82,7 @@ class BeyondNoise:
             if not left:
                 break
             places = tried[left, :, 1:].reshape(-1, dimension)
-            inside = self.surrounded(kind, places, context).reshape(len(left), -1).tolist()
+            inside = self._surrounded(kind, places, context).reshape(len(left), -1).tolist()
             refused = []
             for i, within in zip(left, inside, strict=True):
                 for draw, among in zip(tried[i], within, strict=True):
