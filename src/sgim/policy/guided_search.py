@@ -46,9 +46,9 @@ class GuidedSearch:
 
     The map is a Gaussian process over all trials so far (`OutcomeMap`), whose constants are learned
     again whenever there are twice as many. The policy that it expects to come nearest to the goal
-    is varied by as much as should change the outcome by about what is lacking, and no less than
-    noise does, since nothing could be learned from less. Of a few variations the one is tried whose
-    outcome is the least certain.
+    is varied by as much as should change the outcome by about what is lacking, but not so far that
+    the map says nothing of it, and no less than noise does, since nothing could be learned from
+    less. Of a few variations the one is tried whose outcome is the least certain.
 
     With few trials each is worth much, and a map over all of them foresees more than one over the
     few nearest; with many it would cost more than it brings. Where the map shows nothing, or misses
@@ -62,6 +62,8 @@ class GuidedSearch:
         near_outcomes: Of so many trials with the nearest outcomes the map takes its first guess.
         variation: Smallest and largest size of the variation's effect on the outcome, as a share
             of what is lacking.
+        most_of_length: How far a variation may be, over the length over which outcomes change: what
+            is lacking may be out of reach, and says nothing then.
         above_noise: The least effect, over the standard deviation of noise.
         variations: How many variations to choose among.
         least_global: Probability of a random policy.
@@ -75,6 +77,7 @@ class GuidedSearch:
         if_noisy: int = 0,
         near_outcomes: int = 8,
         variation: tuple[float, float] = (0.5, 1.5),
+        most_of_length: float = 0.15,
         above_noise: float = 2.0,
         variations: int = 8,
         least_global: float = 0.1,
@@ -85,6 +88,7 @@ class GuidedSearch:
         self.if_noisy = if_noisy
         self.near_outcomes = near_outcomes
         self.variation = variation
+        self.most_of_length = most_of_length
         self.above_noise = above_noise
         self.variations = variations
         self.least_global = least_global
@@ -167,6 +171,7 @@ class GuidedSearch:
         signal = math.sqrt(float(smoothness.variance.sum()))
         least, most = self.variation
         effect = lacking * least * (most / least) ** rng.random()
+        effect = min(effect, self.most_of_length * signal)
         effect = max(effect, self.above_noise * smoothness.deviation)
         # A variation of every coordinate by 1 is as long by the metric as their number's root.
         scale = min(effect * smoothness.length / (signal * math.sqrt(dimension) + 1e-300), 1.0)
