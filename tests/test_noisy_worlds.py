@@ -8,7 +8,8 @@ import pytest
 from sgim import algorithms
 from sgim.memory import Memory
 from sgim.policy.model import NearestModel
-from sgim.records import Trial
+from sgim.records import Goal, Trial
+from sgim.runs import Benchmark, Run
 from sgim.spaces import Box, FloatArray
 from sgim.task import Task
 
@@ -76,3 +77,30 @@ def test_goals_of_a_smaller_box_are_looked_for_where_they_lie_among_outcomes(
         model.update(Trial(rng.random(2), {"place": place}))
     assert model.surrounded("place", np.array(places), None).all()
     assert (model.lacks("place", np.array(places), None) < 0.05).all()
+
+
+class Puck:
+    """A puck that is pushed so far, give or take two per cent of it."""
+
+    def __init__(self, noise: float = 0.02) -> None:
+        self.noise, self.deterministic = noise, noise == 0
+        self.task = Task(Box([0, 0], [np.pi, 3]), {"puck": Box([-1, 0], [1, 1])})
+
+    def execute(self, policy: Any, context: Any = None, rng: Any = None) -> dict[str, FloatArray]:
+        distance = policy[1] ** 2 / 6
+        if self.noise:
+            distance *= 1 + self.noise * rng.standard_normal()
+        place = distance * np.array([np.cos(policy[0]), np.sin(policy[0])])
+        return {"puck": place} if self.task.outcome_spaces["puck"].contains(place) else {}
+
+
+def test_noise_in_proportion_to_outcomes_does_not_hide_a_map_that_is_clear() -> None:
+    goals = [Goal("puck", np.array([x, y])) for x in (-0.6, 0.0, 0.6) for y in (0.2, 0.5, 0.7)]
+    run = Run(
+        algorithms.make("sagg-riac", Puck().task, seed=0),
+        Puck(),
+        benchmark=Benchmark(goals, Puck(noise=0)),
+        evaluate_every=300,
+    )
+    errors = [found.errors["puck"] for found in run.go(600)]
+    assert max(errors[1:]) < 0.005  # the nearest outcomes are 0.02 off

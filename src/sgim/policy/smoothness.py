@@ -101,8 +101,12 @@ class Smoothness:
 
     @property
     def uneven(self) -> bool:
-        """Whether it misses most trials by little and a few by much: noise here and not there."""
-        return self.enough and self.even < _EVEN
+        """Whether it misses most trials by little and a few by much: noise here and not there.
+
+        Where there is little noise anywhere, as where it is in proportion to small outcomes, the
+        map is as good as it need be.
+        """
+        return self.enough and self.even < _EVEN and self.noise > _CLEAR
 
     @property
     def drowned(self) -> bool:
