@@ -43,6 +43,9 @@ class PointColumn:
         else:
             self._vectors.extend(np.array(points))
 
+    def __len__(self) -> int:
+        return len(self._objects if self._vectors is None else self._vectors)
+
     def __getitem__(self, row: int) -> Any:
         if self._vectors is not None:
             return self._vectors.rows[row].copy()
@@ -178,6 +181,11 @@ class KindMemory:
         if len(index) < len(self):
             index.extend(self.encoded_policies(slice(len(index), len(self))))
         return index.query(policy, k)
+
+    @property
+    def ever_failed(self) -> bool:
+        """Whether some trial did not produce this kind."""
+        return len(self._policies) > len(self)
 
     def chance_of_failing(self, policies: FloatArray, k: int) -> FloatArray:
         """The chance that policies do not produce this kind, by what the most alike trials did.

@@ -66,11 +66,18 @@ class Around:
         known = (covariances[:, None] @ self.inverses @ covariances[:, :, None])[:, 0, 0]
         return outcomes, np.maximum(self.smoothness.alone - known, 0.0)
 
-    def best(self, goal: FloatArray) -> tuple[int, FloatArray, float]:
-        """The centre expected to come nearest, its expected outcome and mean squared distance."""
+    def best(
+        self, goal: FloatArray, risks: FloatArray | None = None
+    ) -> tuple[int, FloatArray, float]:
+        """The centre expected to come nearest, its expected outcome and mean squared distance.
+
+        Args:
+            goal: The goal.
+            risks: What is added to each centre's distance.
+        """
         expected, uncertain = self.expected()
         misses = ((expected - goal) ** 2).sum(axis=1) + uncertain * self.variances
-        best = int(np.argmin(misses))
+        best = int(np.argmin(misses if risks is None else np.sqrt(misses) + risks))
         return best, expected[best], float(misses[best])
 
     def may_produce(self, count: int) -> FloatArray:

@@ -76,7 +76,10 @@ class LocalModel:
                 return self._surer(memory, keys, smoothness)
             return Nearest().answers(memory, keys)
         if smoothness.trusted:
-            return [self._answer(memory, key, smoothness, self.near_outcomes) for key in keys]
+            heeded = memory.ever_failed
+            return [
+                self._answer(memory, key, smoothness, self.near_outcomes, heeded) for key in keys
+            ]
         if smoothness.noisy:
             return KernelMean(own=1.0 if smoothness.uneven else 0.0).answers(memory, keys)
         return Nearest().answers(memory, keys)
@@ -170,8 +173,18 @@ class LocalModel:
         return around.may_produce(self.like_policies)
 
     def _answer(
-        self, memory: KindMemory, key: FloatArray, smoothness: Smoothness, candidates: int
+        self,
+        memory: KindMemory,
+        key: FloatArray,
+        smoothness: Smoothness,
+        candidates: int,
+        failures: bool = False,
     ) -> Answer:
+        """The policy expected to come nearest.
+
+        If failures are heeded the chance that it produces nothing of the kind, a cost of 1, is
+        added to the distance: where noise decides that, what is remembered is what went well.
+        """
         _, rows = memory.nearest(key, self.among)
         outcomes, inputs = taken(memory, rows)
         goal, context = key[: outcomes.shape[1]], key[outcomes.shape[1] :]
@@ -179,7 +192,12 @@ class LocalModel:
         centres = inputs[:candidates].copy()
         centres[:, dimension:] = context
         around = Around(inputs, outcomes, centres, smoothness, self.near_policies)
-        best, expected, square = around.best(goal)
+        risks = None
+        if failures:
+            risks = memory.chance_of_failing(centres[:, :dimension], self.like_policies)
+        best, expected, square = around.best(goal, risks)
+        remembered = Answer(int(rows[best]), None, expected)
+        cost = math.sqrt(square)
         start = centres[best, :dimension]
         policy, further = start, None
         for _ in range(self.steps):
@@ -188,4 +206,10 @@ class LocalModel:
                 break
             further, expected, square = stepped
             policy = start + further
-        return Answer(int(rows[best]), None if further is None else policy, expected)
+        if further is None:
+            return remembered
+        if risks is not None:
+            risk = float(memory.chance_of_failing(policy[None], self.like_policies)[0])
+            if math.sqrt(square) + risk > cost + float(risks[best]):
+                return remembered
+        return Answer(int(rows[best]), policy, expected)
