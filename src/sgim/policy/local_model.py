@@ -76,7 +76,7 @@ class LocalModel:
                 return self._surer(memory, keys, smoothness)
             return Nearest().answers(memory, keys)
         if smoothness.trusted:
-            heeded = memory.ever_failed
+            heeded = smoothness.enough and memory.ever_failed  # with few trials all may be chance
             return [
                 self._answer(memory, key, smoothness, self.near_outcomes, heeded) for key in keys
             ]

@@ -103,10 +103,11 @@ class Smoothness:
     def uneven(self) -> bool:
         """Whether it misses most trials by little and a few by much: noise here and not there.
 
-        Where there is little noise anywhere, as where it is in proportion to small outcomes, the
-        map is as good as it need be.
+        Where there decidedly is noise but little anywhere, as where it is in proportion to small
+        outcomes, the map is as good as it need be. Else outcomes may jump.
         """
-        return self.enough and self.even < _EVEN and self.noise > _CLEAR
+        little = self.noisy and self.noise <= _CLEAR
+        return self.enough and self.even < _EVEN and not little
 
     @property
     def drowned(self) -> bool:
