@@ -92,7 +92,7 @@ def test_an_interest_map_of_ones_own_takes_the_place_of_the_algorithms() -> None
     assert learner.ask().id == 0
 
 
-def test_any_learner_has_a_control_that_does_not_choose_its_goals() -> None:
+def test_sagg_riac_has_a_control_that_does_not_choose_its_goals() -> None:
     task = PlanarArm(2).task
     control = algorithms.make("sagg-riac", task, configuration="modern,interest=uniform", seed=3)
     points = []

@@ -72,8 +72,8 @@ class Around:
         """The centre expected to come nearest, its expected outcome and mean squared distance.
 
         Args:
-            goal: The goal.
-            risks: What is added to each centre's distance.
+            goal: The goal, shape ``(d,)``.
+            risks: What is added to each centre's distance, shape ``(m,)``; nothing if not given.
         """
         expected, uncertain = self.expected()
         misses = ((expected - goal) ** 2).sum(axis=1) + uncertain * self.variances
