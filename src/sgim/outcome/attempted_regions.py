@@ -64,14 +64,14 @@ class AttemptedRegions(Partition):
         modes: Mapping[str, float],
         streams: Streams,
         *,
-        context_space: Space | None = None,
-        capacity: int = 40,
-        candidates: int = 10,
-        window: int = 10,
-        kind_window: int = 20,
-        prior: float = 0.5,
-        confidence: float = 2.0,
-        sharpness: float = 3.0,
+        context_space: Space | None,
+        capacity: int,
+        candidates: int,
+        window: int,
+        kind_window: int,
+        prior: float,
+        confidence: float,
+        sharpness: float,
     ) -> None:
         super().__init__(goal_spaces, streams, context_space=context_space, candidates=candidates)
         self.modes = {name: i for i, name in enumerate(modes)}
