@@ -13,6 +13,7 @@ import pytest
 from sgim import events as e
 from sgim.errors import JournalError
 from sgim.records import Plan
+from sgim.runs import journal_file
 from sgim.runs.journal import Journal
 from sgim.spaces import Box
 from sgim.task import Task
@@ -156,6 +157,34 @@ def test_what_is_left_of_a_killed_and_deleted_journal_does_not_get_into_a_new_on
     with Journal.create(path, {}, TASK) as journal:
         journal.append(told(5))
         assert [event.plan for event in journal.events()] == [5]
+
+
+class Killing(tuple):
+    """Statements that kill the process that goes through them, before one of them."""
+
+    def __iter__(self):
+        for i, statement in enumerate(super().__iter__()):
+            if i == 1:
+                os.kill(os.getpid(), signal.SIGKILL)
+            yield statement
+
+
+def test_a_kill_while_a_journal_is_made_leaves_none_and_the_next_makes_it(tmp_path, monkeypatch):
+    path = tmp_path / "a.sgim"
+    child = os.fork()
+    if not child:
+        monkeypatch.setattr(journal_file, "SCHEMA", Killing(journal_file.SCHEMA))
+        try:
+            Journal.create(path, {}, TASK)
+        finally:
+            os._exit(0)
+    assert os.WTERMSIG(os.waitpid(child, 0)[1]) == signal.SIGKILL
+    assert not path.exists()
+    with Journal.create(path, {}, TASK) as journal:
+        journal.append(told(5))
+    with Journal.open(path, TASK, append=False) as journal:
+        assert [event.plan for event in journal.events()] == [5]
+    assert [p.name for p in tmp_path.iterdir() if not p.name.endswith(".lock")] == ["a.sgim"]
 
 
 def test_a_forked_worker_does_not_keep_the_lock(tmp_path):

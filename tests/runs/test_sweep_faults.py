@@ -99,8 +99,6 @@ def test_a_worker_that_is_killed_costs_no_run_and_the_journals_are_the_same_on_e
 def test_a_run_that_always_kills_its_worker_is_reported_and_takes_no_other_along(
     tmp_path: Path, undisturbed: list[Path]
 ) -> None:
-    # By the retries of default: with one only, a neighbour that had died along was once seen to
-    # fail again on a busy machine.
     results = sweep(runs(tmp_path / "tally", 99), jobs=2, out=tmp_path / "out")
     assert [r.status for r in results] == ["finished", "failed", "finished", "finished"]
     assert results[1].attempts == 3

@@ -5,12 +5,13 @@ from __future__ import annotations
 import os
 import sqlite3
 from collections.abc import Mapping
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
 from sgim.errors import JournalError
 from sgim.runs.journal_errors import damaged, error_code, exists, explain
-from sgim.runs.journal_mode import choose_mode, log_of
+from sgim.runs.journal_mode import LOGS, choose_mode, log_of
 from sgim.runs.rows import SCHEMA, to_json
 
 APPLICATION_ID = 0x5347494D
@@ -32,23 +33,21 @@ def connect(path: Path, options: str) -> sqlite3.Connection:
 
 
 def create_file(path: Path, header: Mapping[str, Any], *, durable: bool) -> sqlite3.Connection:
-    """Make a new journal without events, in one transaction, ready for appending.
+    """Make a new journal without events, ready for appending.
+
+    It is made under another name, so that a process killed meanwhile leaves no half of a journal
+    where one is looked for.
 
     Raises:
         JournalError: If it exists already or cannot be made; nothing is left behind then.
     """
     texts = [(key, to_json(value)) for key, value in header.items()]
-    try:
-        os.close(os.open(path, os.O_CREAT | os.O_EXCL | os.O_WRONLY, 0o666))
-    except FileExistsError:
-        raise exists(path) from None
-    except OSError as error:
-        raise JournalError(
-            f"journal {path} cannot be made ({error.strerror}); choose another path"
-        ) from error
+    new = path.with_name(f".{path.name}.new")
     db = None
     try:
-        db = connect(path, "mode=rw")
+        new.unlink(missing_ok=True)  # of a process that was killed here
+        os.close(os.open(new, os.O_CREAT | os.O_EXCL | os.O_WRONLY, 0o666))
+        db = connect(new, "mode=rw")
         db.execute("BEGIN IMMEDIATE")
         for statement in SCHEMA:
             db.execute(statement)
@@ -56,6 +55,43 @@ def create_file(path: Path, header: Mapping[str, Any], *, durable: bool) -> sqli
         db.execute(f"PRAGMA application_id = {APPLICATION_ID}")
         db.execute(f"PRAGMA user_version = {SCHEMA_VERSION}")
         db.execute("COMMIT")
+        db.close()
+        _put(new, path)
+    except FileExistsError:
+        raise exists(path) from None
+    except OSError as error:
+        raise JournalError(
+            f"journal {path} cannot be made ({error.strerror}); choose another path"
+        ) from error
+    except sqlite3.Error as error:
+        raise explain(path, error) from error
+    finally:
+        if db is not None:
+            db.close()
+        with suppress(OSError):
+            new.unlink(missing_ok=True)
+    return _ready(path, durable=durable)
+
+
+def _put(new: Path, path: Path) -> None:
+    """Give a finished file its name, at once, unless there is one of that name already."""
+    for ending in LOGS:  # of a journal that was deleted without them
+        path.with_name(path.name + ending).unlink(missing_ok=True)
+    try:
+        os.link(new, path)
+    except FileExistsError:
+        raise
+    except OSError:  # a file system without links
+        if os.path.lexists(path):
+            raise FileExistsError from None
+        new.rename(path)
+
+
+def _ready(path: Path, *, durable: bool) -> sqlite3.Connection:
+    """Open a file just made for appending; remove it if that fails."""
+    db = None
+    try:
+        db = connect(path, "mode=rw")
         choose_mode(db, path, durable=durable)
     except BaseException as error:
         if db is not None:

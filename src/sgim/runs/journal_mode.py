@@ -20,6 +20,10 @@ MOUNTS = Path("/proc/self/mounts")
 """Where Linux lists what is mounted."""
 
 
+LOGS = ("-wal", "-journal", "-shm")
+"""What SQLite puts beside a file, as its name ends."""
+
+
 def choose_mode(db: sqlite3.Connection, path: Path, *, durable: bool) -> None:
     """Choose SQLite's journal mode and how long a commit waits for the disk.
 
@@ -65,7 +69,7 @@ def network_file_system(path: Path, mounts: Path = MOUNTS) -> str | None:
 
 def log_of(path: Path) -> str | None:
     """Name of the file beside a journal in which some of it still is, or what undoes some."""
-    for ending in ("-wal", "-journal"):
+    for ending in LOGS[:2]:
         with suppress(FileNotFoundError):
             if os.stat(f"{path.resolve()}{ending}").st_size > 0:
                 return f"{path.resolve().name}{ending}"
