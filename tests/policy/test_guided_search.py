@@ -80,6 +80,19 @@ def test_variations_are_no_smaller_than_noise() -> None:
     assert effects[1] > 2 * ARM.noise
 
 
+def test_variations_are_no_longer_than_the_map_says_something_of() -> None:
+    """What is lacking may be out of reach; but a quarter of the box's side is never too far."""
+    model, far = knowing(ARM, 120), [Goal("hand", np.array([9.0, 9.0]))] * 200
+    spread = []
+    for most in (0.0, 0.15, 0.6, math.inf):
+        search = GuidedSearch(
+            LocalSearch(model), most_of_length=most, variations=1, least_global=0.0, above_noise=0.0
+        )
+        spread.append(ARM.task.policy_space.encode(proposed(search, far)).std(axis=0).mean())
+    assert 0.1 < math.sqrt(7) * spread[0] < 0.25  # some of it is cut off by the box
+    assert spread[0] <= spread[1] < spread[2] < spread[3]
+
+
 def test_of_several_variations_the_least_certain_is_tried() -> None:
     model, some = knowing(ARM, 120), goals(60)
     uncertain = []
@@ -201,7 +214,7 @@ def test_no_map_is_asked_once_the_budget_is_used_up(
     configuration = f"modern,seconds_per_trial={seconds}"
     learner = algorithms.make("sagg-riac", QUIET.task, configuration=configuration, seed=1)
     asked = guided_at(Run(learner, QUIET), most + 60, monkeypatch)
-    assert asked[-1] == most - 1
+    assert most - 5 < asked[-1] < most  # the last of all may be a random policy
     assert len(asked) > 0.7 * most
     assert not learner.strategy.modes["autonomous"].explorer._maps  # type: ignore[attr-defined]
 

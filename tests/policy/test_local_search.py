@@ -62,7 +62,7 @@ def test_joints_that_act_alike_share_the_step() -> None:
 def test_local_steps_are_no_longer_than_the_neighbourhood_is_wide() -> None:
     around = CENTRE + 0.03 * np.array([[0, 0], [1, 0], [0, 1], [-1, 0]])
     model = remember(PLANE, plane, around)
-    search = LocalSearch(model, variation=STRAIGHT)
+    search = LocalSearch(model, variation=STRAIGHT, least_wide=0.0)
     goal = Goal("place", plane(CENTRE)["place"] + [0.0, 2.5])
     share = 1 + model.competence(goal, None)
     assert share == pytest.approx(0.75, abs=0.05)  # Of local steps; the others are random.
@@ -218,7 +218,7 @@ def test_the_share_of_random_policies_is_the_cost_or_the_least(least: float, sha
     # Remembered policies on a line: local steps stay on it.
     on_line = [np.array([0.5, 0.5]), np.array([0.5, 0.4]), np.array([0.5, 0.3])]
     model = remember(PLANE, plane, on_line)
-    search = LocalSearch(model, least_global=least, variation=STRAIGHT)
+    search = LocalSearch(model, least_global=least, least_wide=0.0, variation=STRAIGHT)
     goal = Goal("place", plane(on_line[0])["place"] - [0.0, 5.0])
     assert model.competence(goal, None) == pytest.approx(-0.5, abs=0.03)
     episodes = [episode_for(model, goal, seed=seed) for seed in range(500)]
@@ -226,6 +226,39 @@ def test_the_share_of_random_policies_is_the_cost_or_the_least(least: float, sha
         search.begin(episode)
     off_line = [abs(policy[0] - 0.5) > 1e-6 for policy in search.propose(episodes)]
     assert np.mean(off_line) == pytest.approx(share, abs=0.06)
+
+
+@pytest.mark.parametrize("share", [0.0, 0.4])
+def test_now_and_then_the_best_policy_is_varied_widely(share: float) -> None:
+    on_line = [np.array([0.5, 0.5]), np.array([0.5, 0.4]), np.array([0.5, 0.3])]
+    search = LocalSearch(
+        remember(PLANE, plane, on_line), least_global=0.0, least_wide=share, variation=STRAIGHT
+    )
+    drawn = np.array(
+        [p for seed in range(100) for p in proposals(search, goal_at(on_line[0]), seed=seed)]
+    )
+    wide = drawn[np.abs(drawn[:, 0] - 0.5) > 1e-6]
+    assert len(wide) / len(drawn) == pytest.approx(share, abs=0.06)
+    if share:
+        assert (wide.mean(axis=0) == pytest.approx(on_line[0], abs=0.02)) and wide.std(
+            axis=0
+        ) == pytest.approx(0.1, abs=0.02)
+
+
+@pytest.mark.parametrize(("others", "varied"), [(5, False), (60, True)])
+def test_what_is_known_of_a_rare_kind_is_varied(others: int, varied: bool) -> None:
+    task = Task(Box(0, 1, names=["a", "b"]), {"x": Box(0, 1), "rare": Box(0, 1)})
+
+    def world(policy: np.ndarray) -> dict[str, np.ndarray]:
+        return {"rare" if (policy == CENTRE).all() else "x": policy[:1]}
+
+    model = remember(task, world, [CENTRE, *random_policies(task, others)])
+    search = LocalSearch(model, least_global=0.0)
+    goal = Goal("rare", np.array([0.9]))
+    drawn = np.array([p for seed in range(50) for p in proposals(search, goal, seed=seed)])
+    around, everywhere = 0.05, 12**-0.5
+    expected = around if varied else everywhere
+    assert drawn.std(axis=0) == pytest.approx(expected, rel=0.1)
 
 
 def test_trials_of_other_kinds_and_refusals_teach_the_search_nothing() -> None:

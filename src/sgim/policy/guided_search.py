@@ -23,6 +23,7 @@ OPERATIONS_PER_SECOND = 1e9
 MOST_TRIALS = 4000
 """How many trials are guided at most: the map takes 8 bytes for each pair of twice so many."""
 
+_NO_NEARER = 0.25  # By the metric: variations of so much are allowed in any case.
 _LEARNING = 3e8  # Operations of learning how smooth the map is, which needs a few neighbourhoods.
 
 
@@ -63,7 +64,8 @@ class GuidedSearch:
         variation: Smallest and largest size of the variation's effect on the outcome, as a share
             of what is lacking.
         most_of_length: How far a variation may be, over the length over which outcomes change: what
-            is lacking may be out of reach, and says nothing then.
+            is lacking may be out of reach, and says nothing then. A quarter of the unit box's side
+            is never too far.
         above_noise: The least effect, over the standard deviation of noise.
         variations: How many variations to choose among.
         least_global: Probability of a random policy.
@@ -171,10 +173,12 @@ class GuidedSearch:
         signal = math.sqrt(float(smoothness.variance.sum()))
         least, most = self.variation
         effect = lacking * least * (most / least) ** rng.random()
-        effect = min(effect, self.most_of_length * signal)
-        effect = max(effect, self.above_noise * smoothness.deviation)
+        # How far a policy is to be changed for the outcome to change by so much, by the metric.
+        per_effect = smoothness.length / (signal + 1e-300)
+        length = min(effect * per_effect, max(self.most_of_length * smoothness.length, _NO_NEARER))
+        length = max(length, self.above_noise * smoothness.deviation * per_effect)
         # A variation of every coordinate by 1 is as long by the metric as their number's root.
-        scale = min(effect * smoothness.length / (signal * math.sqrt(dimension) + 1e-300), 1.0)
+        scale = min(length / math.sqrt(dimension), 1.0)
         offsets = scale * rng.standard_normal((self.variations, dimension))
         varied: FloatArray = np.minimum(np.maximum(policy + offsets, 0.0), 1.0)
         _, unknown = known.expected(with_context(varied, context))

@@ -12,11 +12,14 @@ from sgim.memory.memory import IntArray, KindMemory
 from sgim.policy.explorer import Episode, well_reached
 from sgim.policy.model import NearestModel
 from sgim.policy.small_systems import solved
+from sgim.policy.smoothness import Smoothness
 from sgim.records import Goal, Trial
 from sgim.spaces import Box, FloatArray
 
 _BLUR = 0.1  # Policies this much nearer than the farthest, squared, weigh alike: noise.
 _SPREAD = (0.1, 0.3)  # Least and largest size of a variation that feeds a map, over its length.
+_NEAR, _WIDE = 0.05, 0.1  # Standard deviations of a policy's coordinates that is just varied.
+_RARE = 10  # Of so many trials less than one produced what is rare.
 _WIDEST = 1.0  # Of the standard deviation of a varied policy's coordinates in the unit box.
 _BLOCK = 128  # Episodes whose arrays are stacked at once, so that they stay in a cache.
 _SAME = 1e-20  # Of a squared distance between policies in the unit box.
@@ -113,6 +116,12 @@ class LocalSearch:
     probability equal to the goal's cost, and no less than ``least_global``, a random policy is
     tried instead (thesis algorithm 3.2.4).
 
+    A map that is fitted near the best policy may home in on the best there is near it, and no
+    nearer. So now and then the best policy is varied in all coordinates by about a tenth of their
+    range instead, as in random goal babbling. And where the first two trials of a rare kind are all
+    that is known, they are varied, by half of that, since the next random policy that produces it
+    may be hundreds away.
+
     Homing in pays where the best outcome comes again. Where there is noise it may have been luck,
     answers come from a map that is smoothed over like policies (`LocalModel`), and such a map is
     fed by policies that lie as far apart as it is about linear. So, once there is one, variations
@@ -127,6 +136,8 @@ class LocalSearch:
         variation: Smallest and largest size of the variation's effect on the outcome, as a share
             of what is lacking.
         least_global: Least probability of a random policy.
+        least_wide: Probability of a wide variation of the best policy instead of a step, unless
+            variations feed a map.
         reached_share: An episode has nothing left to gain when its goal is within the task's
             tolerance and its cost at most this share of what it was before.
         feeds_map: Whether variations are of the size that suits the map, where there is noise.
@@ -140,6 +151,7 @@ class LocalSearch:
         within: int = 8,
         variation: tuple[float, float] = (0.03, 1.5),
         least_global: float = 0.02,
+        least_wide: float = 0.1,
         reached_share: float = 0.5,
         feeds_map: bool = False,
     ) -> None:
@@ -152,6 +164,7 @@ class LocalSearch:
         self.within = within
         self.variation = variation
         self.least_global = least_global
+        self.least_wide = least_wide
         self.reached_share = reached_share
         self.feeds_map = feeds_map
 
@@ -195,9 +208,9 @@ class LocalSearch:
         for i, episode in enumerate(episodes):
             state: _State = episode.state
             state.take_in()
-            cost = min(1.0, state.cost)
-            if state.count < 3 or episode.rng.random() < max(self.least_global, cost):
-                points[i] = episode.rng.random(self.space.dimension)
+            point = self._unaimed(episode)
+            if point is not None:
+                points[i] = point
             else:
                 stepping.setdefault(id(state.memory), []).append(i)
         for members in stepping.values():
@@ -208,6 +221,29 @@ class LocalSearch:
         for episode, point in zip(episodes, clipped, strict=True):
             episode.state.proposed = point
         return list(self.space.decode(clipped))
+
+    def _unaimed(self, episode: Episode) -> FloatArray | None:
+        """What is tried without a map: a random policy, or the best one varied; None for a step."""
+        state, rng, dimension = episode.state, episode.rng, self.space.dimension
+        if state.count < 3:
+            rare = 0 < len(state.memory) * _RARE < len(self.model.memory)
+            if not (rare and state.count) or rng.random() < self.least_global:
+                return rng.random(dimension)
+            return self._best_of(state) + _NEAR * rng.standard_normal(dimension)
+        if rng.random() < max(self.least_global, min(1.0, state.cost)):
+            return rng.random(dimension)
+        if rng.random() < self.least_wide and self._fed(state.memory) is None:
+            return self._best_of(state) + _WIDE * rng.standard_normal(dimension)
+        return None
+
+    def _best_of(self, state: _State) -> FloatArray:
+        policies, _ = self._gathered([state])
+        best: FloatArray = policies[0, state.best]
+        return best
+
+    def _fed(self, memory: KindMemory) -> Smoothness | None:
+        """The map that variations are to feed; None if there is none."""
+        return self.model.map_of_noisy(memory) if self.feeds_map else None
 
     def _steps(self, episodes: Sequence[Episode]) -> FloatArray:
         """Where each state's local linear map puts its goal, varied: ``(episodes, dimension)``.
@@ -262,7 +298,7 @@ class LocalSearch:
 
         Those that feed a map are instead of the size that suits it.
         """
-        fed = self.model.map_of_noisy(episodes[0].state.memory) if self.feeds_map else None
+        fed = self._fed(episodes[0].state.memory)
         (least, most), dimension = self.variation if fed is None else _SPREAD, self.space.dimension
         offsets, scales = [], []
         for episode, slope in zip(episodes, slopes, strict=True):
