@@ -240,9 +240,8 @@ def test_now_and_then_the_best_policy_is_varied_widely(share: float) -> None:
     wide = drawn[np.abs(drawn[:, 0] - 0.5) > 1e-6]
     assert len(wide) / len(drawn) == pytest.approx(share, abs=0.06)
     if share:
-        assert (wide.mean(axis=0) == pytest.approx(on_line[0], abs=0.02)) and wide.std(
-            axis=0
-        ) == pytest.approx(0.1, abs=0.02)
+        assert wide.mean(axis=0) == pytest.approx(on_line[0], abs=0.02)
+        assert wide.std(axis=0) == pytest.approx(0.1, abs=0.02)
 
 
 @pytest.mark.parametrize(("others", "varied"), [(5, False), (60, True)])

@@ -13,6 +13,7 @@ from dataclasses import replace
 import numpy as np
 
 from sgim.policy.smoothness import LEAST_NOISE, Smoothness, squared_distances
+from sgim.policy.tridiagonal import shifted, tridiagonal
 from sgim.spaces import FloatArray
 
 Neighbourhood = tuple[FloatArray, FloatArray]
@@ -91,25 +92,16 @@ def _fit(
 
 
 def _fitted(found: Sequence[Neighbourhood], metric: FloatArray, trials: int) -> Smoothness:
-    parts = [(squared_distances(p), y - y.mean(axis=0)) for p, y in found]
-    typical = float(np.sqrt(np.median(np.concatenate([s[s > 0] for s, _ in parts]))))
-    lengths = typical * _LENGTHS
-    count = sum(len(y) - 1 for _, y in parts)
-    coordinates = parts[0][1].shape[1]
-    logs = np.zeros((len(lengths), len(_NOISES)))
-    sums = np.zeros((*logs.shape, coordinates))
-    alone = np.zeros((len(parts), *sums.shape))
-    for i, length in enumerate(lengths):
-        for part, (squares, y) in enumerate(parts):
-            values, loads = _spectrum(np.exp(squares * (-0.5 / length**2)), y)
-            log, total = _profile(values, loads)
-            logs[i] += log
-            sums[i] += total
-            # Alone, noise is weighed against the differences within the neighbourhood.
-            log, total = _profile(values / values.mean(), loads)
-            free = len(values)
-            alone[part, i] = -0.5 * (log[:, None] + free * np.log(total / free + _TINY))
-    together = -0.5 * (coordinates * logs + count * np.log(sums / count + _TINY).sum(axis=2))
+    squared = np.array([squared_distances(p) for p, _ in found])
+    outcomes = np.array([y - y.mean(axis=0) for _, y in found])
+    lengths = float(np.sqrt(np.median(squared[squared > 0]))) * _LENGTHS
+    correlations = np.exp(squared[:, None] * (-0.5 / lengths[:, None, None] ** 2))
+    logs, sums, alone = _likelihoods(correlations, outcomes)
+    count, coordinates = outcomes.shape[0] * (outcomes.shape[1] - 1), outcomes.shape[2]
+    sums = sums.sum(axis=0)
+    together = -0.5 * (
+        coordinates * logs.sum(axis=0) + count * np.log(sums / count + _TINY).sum(axis=2)
+    )
     best = np.unravel_index(int(np.argmax(together)), together.shape)
     # Each neighbourhood is heard alone, or the few that straddle a jump would decide for all.
     noises = alone.max(axis=1)
@@ -137,24 +129,33 @@ def _fitted(found: Sequence[Neighbourhood], metric: FloatArray, trials: int) -> 
     return replace(fit, explained=float(np.median(shares)), even=even)
 
 
-def _spectrum(correlation: FloatArray, outcomes: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Variances of the signal along independent directions, and the squares of outcomes there.
+def _likelihoods(
+    correlations: FloatArray, outcomes: FloatArray
+) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """How likely outcomes are in each neighbourhood, for each length and noise.
 
-    A constant mean is projected out: shapes are ``(k - 1,)`` and ``(k - 1, d)``.
+    A constant mean is projected out.
+
+    Args:
+        correlations: Of the signal, for each neighbourhood and length, shape ``(m, l, k, k)``.
+        outcomes: Less their mean, shape ``(m, k, d)``.
+
+    Returns:
+        Log-determinants, shape ``(m, l, noises)``; weighted sums of squares, shape ``(m, l, noises,
+        d)``; and for each neighbourhood alone, where noise is weighed against the differences
+        within it, logarithms of likelihoods of that last shape.
     """
-    mean = correlation.mean(axis=0)
-    values, vectors = np.linalg.eigh(correlation - mean - mean[:, None] + mean.mean())
-    # The least belongs to the constant.
-    return np.maximum(values[1:], 0.0) + LEAST_NOISE, (vectors[:, 1:].T @ outcomes) ** 2
-
-
-def _profile(values: FloatArray, loads: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """For every noise, the log-determinant, shape ``(noises,)``, and weighted sums of squares.
-
-    The latter have shape ``(noises, d)``.
-    """
-    spectra = values + _NOISES[:, None]
-    return np.log(spectra).sum(axis=1), (1 / spectra) @ loads
+    means = correlations.mean(axis=-1, keepdims=True)
+    centred = correlations - means - np.swapaxes(means, -1, -2)
+    centred += means.mean(axis=-2, keepdims=True)
+    free = outcomes.shape[1] - 1
+    signal = np.trace(centred, axis1=-2, axis2=-1)[..., None] / free + LEAST_NOISE
+    noises = np.stack(np.broadcast_arrays(_NOISES, _NOISES * signal), axis=-2) + LEAST_NOISE
+    logs, sums = shifted(*tridiagonal(centred, outcomes[:, None]), noises)
+    logs -= np.log(noises)  # What belongs to the constant.
+    scaled = logs[:, :, 1] - free * np.log(signal)
+    within = np.log(sums[:, :, 1] * (signal / free)[..., None] + _TINY)
+    return logs[:, :, 0], sums[:, :, 0], -0.5 * (scaled[..., None] + free * within)
 
 
 def _left_out(
