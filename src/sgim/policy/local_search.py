@@ -11,6 +11,7 @@ import numpy as np
 from sgim.memory.memory import IntArray, KindMemory
 from sgim.policy.explorer import Episode, well_reached
 from sgim.policy.model import NearestModel
+from sgim.policy.near_trials import NearTrials
 from sgim.policy.small_systems import solved
 from sgim.policy.smoothness import Smoothness
 from sgim.records import Goal, Trial
@@ -23,81 +24,6 @@ _RARE = 10  # Of so many trials less than one produced what is rare.
 _WIDEST = 1.0  # Of the standard deviation of a varied policy's coordinates in the unit box.
 _BLOCK = 128  # Episodes whose arrays are stacked at once, so that they stay in a cache.
 _SAME = 1e-20  # Of a squared distance between policies in the unit box.
-
-
-class _State:
-    """What an episode's search knows: trials near the goal, the episode's own among them.
-
-    Args:
-        memory: The trials that produced the goal's kind.
-        goal: The goal's key.
-        rows: Remembered trials, nearest first, shape ``(room,)``.
-        costs: How far what they produced is from the goal, shape ``(room,)``.
-        count: How many of the places are taken.
-
-    Attributes:
-        own: Place → policy in the unit box and key, of the episode's own trials.
-        best: Place of the best one; −1 if there is none.
-        cost: What it costs.
-    """
-
-    __slots__ = (
-        "best",
-        "cost",
-        "costs",
-        "count",
-        "goal",
-        "memory",
-        "own",
-        "proposed",
-        "rows",
-        "told",
-    )
-
-    def __init__(
-        self,
-        memory: KindMemory,
-        goal: FloatArray,
-        rows: IntArray,
-        costs: FloatArray,
-        count: int,
-    ) -> None:
-        self.memory = memory
-        self.goal = goal
-        self.rows = rows
-        self.costs = costs
-        self.count = count
-        self.best = 0 if count else -1
-        self.cost = float(costs[0]) if count else 1.0
-        self.own: dict[int, tuple[FloatArray, FloatArray]] = {}
-        self.proposed = goal[:0]
-        self.told: list[tuple[FloatArray, FloatArray, float]] = []
-
-    def aim(self, goal: FloatArray) -> None:
-        self.goal = goal
-        if not self.count:
-            return
-        keys = self.memory.keys.rows.take(self.rows[: self.count], axis=0)
-        for at, (_, key) in self.own.items():
-            keys[at] = key
-        offsets = keys - goal
-        self.costs[: self.count] = np.sqrt(np.einsum("ij,ij->i", offsets, offsets))
-        self.best = int(self.costs[: self.count].argmin())
-        self.cost = float(self.costs[self.best])
-
-    def take_in(self) -> None:
-        """Add the trials that were told since the last proposal."""
-        for policy, key, cost in self.told:
-            n = self.count
-            if n == len(self.rows):  # the farthest from the goal makes room
-                n = int(self.costs.argmax())
-            else:
-                self.count = n + 1
-            self.own[n] = policy, key
-            self.costs[n] = cost
-            if self.best < 0 or cost < self.cost:
-                self.best, self.cost = n, cost
-        self.told.clear()
 
 
 class LocalSearch:
@@ -193,7 +119,7 @@ class LocalSearch:
                 wanted = self.model.memory.keys(kind, [goal.point for goal in goals], contexts)
             places = zip(members, wanted, rows, costs, strict=True)
             for (episode, _), goal, nearest, apart in places:
-                episode.state = _State(memory, goal, nearest, apart, count)
+                episode.state = NearTrials(memory, goal, nearest, apart, count)
 
     def moved(self, episode: Episode) -> None:
         """Measure what is known against the goal in the new context."""
@@ -206,7 +132,7 @@ class LocalSearch:
         points = np.empty((len(episodes), self.space.dimension))
         stepping: dict[int, list[int]] = {}  # by the goal's kind
         for i, episode in enumerate(episodes):
-            state: _State = episode.state
+            state: NearTrials = episode.state
             state.take_in()
             point = self._unaimed(episode)
             if point is not None:
@@ -236,7 +162,7 @@ class LocalSearch:
             return self._best_of(state) + _WIDE * rng.standard_normal(dimension)
         return None
 
-    def _best_of(self, state: _State) -> FloatArray:
+    def _best_of(self, state: NearTrials) -> FloatArray:
         policies, _ = self._gathered([state])
         best: FloatArray = policies[0, state.best]
         return best
@@ -251,7 +177,7 @@ class LocalSearch:
         Arrays are stacked, so that each state's numbers go through the same operations on the
         same shapes however many there are.
         """
-        states: list[_State] = [episode.state for episode in episodes]
+        states: list[NearTrials] = [episode.state for episode in episodes]
         policies, keys = self._gathered(states)
         room = policies.shape[1]
         places = np.arange(0, len(states) * room, room)[:, None]  # of each state's first
@@ -283,7 +209,7 @@ class LocalSearch:
         point += self._variations(episodes, slopes.tolist())
         return point
 
-    def _gathered(self, states: Sequence[_State]) -> tuple[FloatArray, FloatArray]:
+    def _gathered(self, states: Sequence[NearTrials]) -> tuple[FloatArray, FloatArray]:
         """Policies in the unit box and keys of what states of one kind know, in their places."""
         memory = states[0].memory
         rows = np.array([s.rows for s in states]) if len(states) > 1 else states[0].rows[None]
@@ -316,7 +242,7 @@ class LocalSearch:
         assert episode.goal is not None
         key = self.model.key_of(trial, episode.goal.kind)
         if key is not None and competence is not None:
-            state: _State = episode.state
+            state: NearTrials = episode.state
             state.told.append((state.proposed, key, -competence))
 
     def refuse(self, episode: Episode) -> None:

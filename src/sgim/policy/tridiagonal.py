@@ -29,12 +29,12 @@ def tridiagonal(
 
     right = np.broadcast_to(right, (*matrices.shape[:-1], right.shape[-1])).copy()
     diagonals, beside = np.empty(matrices.shape[:-1]), np.empty(matrices[..., 1:, 0].shape)
-    for place in np.ndindex(matrices.shape[:-2]):
-        reflections, diagonals[place], beside[place], scales, _ = dsytrd(matrices[place], lower=1)
+    for each in np.ndindex(matrices.shape[:-2]):
+        reflections, diagonals[each], beside[each], scales, _ = dsytrd(matrices[each], lower=1)
         # They leave the first coordinate as it is, and are stored as those of a QR factorization.
         work = 32 * right.shape[-1]
-        right[place][1:] = dormqr(
-            "L", "T", reflections[1:, :-1], scales, right[place][1:], lwork=work
+        right[each][1:] = dormqr(
+            "L", "T", reflections[1:, :-1], scales, right[each][1:], lwork=work
         )[0]
     return diagonals, beside, right
 
