@@ -184,7 +184,42 @@ def test_a_kill_while_a_journal_is_made_leaves_none_and_the_next_makes_it(tmp_pa
         journal.append(told(5))
     with Journal.open(path, TASK, append=False) as journal:
         assert [event.plan for event in journal.events()] == [5]
+    left = [p.name for p in tmp_path.iterdir() if not p.name.endswith((".lock", ".new-journal"))]
+    assert len(left) == 2  # and a hidden file, of no use
+    assert all(name == "a.sgim" or name.startswith(".") for name in left)
+
+
+def test_a_journal_made_and_left_by_another_meanwhile_loses_nothing(tmp_path, monkeypatch):
+    path, there = tmp_path / "a.sgim", os.path.lexists
+
+    def overtaken(asked):
+        monkeypatch.setattr(os.path, "lexists", there)
+        child = os.fork()
+        if not child:
+            journal = Journal.create(path, {}, TASK)
+            journal.append(told(5))
+            journal.commit()
+            os.kill(os.getpid(), signal.SIGKILL)
+        os.waitpid(child, 0)
+        return False
+
+    monkeypatch.setattr(os.path, "lexists", overtaken)
+    with pytest.raises(JournalError, match="exists"):
+        Journal.create(path, {}, TASK)
+    with Journal.open(path, TASK, append=True) as journal:
+        assert [event.plan for event in journal.events()] == [5]
+
+
+def test_a_file_system_without_links_will_do(tmp_path, monkeypatch):
+    def refused(*paths):
+        raise PermissionError(1, "Operation not permitted")
+
+    monkeypatch.setattr(os, "link", refused)
+    with Journal.create(tmp_path / "a.sgim", {}, TASK) as journal:
+        journal.append(told(5))
     assert [p.name for p in tmp_path.iterdir() if not p.name.endswith(".lock")] == ["a.sgim"]
+    with pytest.raises(JournalError, match="exists"):
+        Journal.create(tmp_path / "a.sgim", {}, TASK)
 
 
 def test_a_forked_worker_does_not_keep_the_lock(tmp_path):

@@ -139,8 +139,9 @@ def test_without_a_write_ahead_log_it_says_so_and_works(path, task, monkeypatch)
     monkeypatch.setattr(
         sqlite3, "connect", lambda place, **options: connect(f"{place}&vfs=unix-none", **options)
     )
-    with pytest.warns(UserWarning, match=r"cannot share a write-ahead log.*mode DELETE"):
+    with pytest.warns(UserWarning, match=r"cannot share a write-ahead log.*mode DELETE") as warned:
         journal = Journal.create(path, {}, task)
+    assert warned[0].filename == __file__
     journal.append(e.Told(0, BOTH))
     journal.commit()
     with Journal.open(path, append=False) as reader:

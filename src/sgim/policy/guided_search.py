@@ -23,7 +23,7 @@ OPERATIONS_PER_SECOND = 1e9
 MOST_TRIALS = 4000
 """How many trials are guided at most: the map takes 8 bytes for each pair of twice so many."""
 
-_NO_NEARER = 0.25  # By the metric: variations of so much are allowed in any case.
+_NEVER_TOO_FAR = 0.25  # By the metric: variations of so much are allowed in any case.
 _LEARNING = 3e8  # Operations of learning how smooth the map is, which needs a few neighbourhoods.
 
 
@@ -48,8 +48,9 @@ class GuidedSearch:
     The map is a Gaussian process over all trials so far (`OutcomeMap`), whose constants are learned
     again whenever there are twice as many. The policy that it expects to come nearest to the goal
     is varied by as much as should change the outcome by about what is lacking, but not so far that
-    the map says nothing of it, and no less than noise does, since nothing could be learned from
-    less. Of a few variations the one is tried whose outcome is the least certain.
+    the map says nothing of it (a quarter of the box's side is never too far), and no less than
+    noise does, since nothing could be learned from less. Of a few variations the one is tried whose
+    outcome is the least certain.
 
     With few trials each is worth much, and a map over all of them foresees more than one over the
     few nearest; with many it would cost more than it brings. Where the map shows nothing, or misses
@@ -175,7 +176,9 @@ class GuidedSearch:
         effect = lacking * least * (most / least) ** rng.random()
         # How far a policy is to be changed for the outcome to change by so much, by the metric.
         per_effect = smoothness.length / (signal + 1e-300)
-        length = min(effect * per_effect, max(self.most_of_length * smoothness.length, _NO_NEARER))
+        length = min(
+            effect * per_effect, max(self.most_of_length * smoothness.length, _NEVER_TOO_FAR)
+        )
         length = max(length, self.above_noise * smoothness.deviation * per_effect)
         # A variation of every coordinate by 1 is as long by the metric as their number's root.
         scale = min(length / math.sqrt(dimension), 1.0)

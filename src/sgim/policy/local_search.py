@@ -19,7 +19,7 @@ from sgim.spaces import Box, FloatArray
 
 _BLUR = 0.1  # Policies this much nearer than the farthest, squared, weigh alike: noise.
 _SPREAD = (0.1, 0.3)  # Least and largest size of a variation that feeds a map, over its length.
-_NEAR, _WIDE = 0.05, 0.1  # Standard deviations of a policy's coordinates that is just varied.
+_RARE_VARIED, _WIDE = 0.05, 0.1  # Standard deviations of all coordinates, in the unit box.
 _RARE = 10  # Of so many trials less than one produced what is rare.
 _WIDEST = 1.0  # Of the standard deviation of a varied policy's coordinates in the unit box.
 _BLOCK = 128  # Episodes whose arrays are stacked at once, so that they stay in a cache.
@@ -44,9 +44,9 @@ class LocalSearch:
 
     A map that is fitted near the best policy may home in on the best there is near it, and no
     nearer. So now and then the best policy is varied in all coordinates by about a tenth of their
-    range instead, as in random goal babbling. And where the first two trials of a rare kind are all
-    that is known, they are varied, by half of that, since the next random policy that produces it
-    may be hundreds away.
+    range instead, as in random goal babbling. And where one or two trials of a rare kind are all
+    that is known, the better one is varied, by half of that, since the next random policy that
+    produces it may be hundreds away.
 
     Homing in pays where the best outcome comes again. Where there is noise it may have been luck,
     answers come from a map that is smoothed over like policies (`LocalModel`), and such a map is
@@ -62,7 +62,7 @@ class LocalSearch:
         variation: Smallest and largest size of the variation's effect on the outcome, as a share
             of what is lacking.
         least_global: Least probability of a random policy.
-        least_wide: Probability of a wide variation of the best policy instead of a step, unless
+        wide_share: Probability of a wide variation of the best policy instead of a step, unless
             variations feed a map.
         reached_share: An episode has nothing left to gain when its goal is within the task's
             tolerance and its cost at most this share of what it was before.
@@ -77,7 +77,7 @@ class LocalSearch:
         within: int = 8,
         variation: tuple[float, float] = (0.03, 1.5),
         least_global: float = 0.02,
-        least_wide: float = 0.1,
+        wide_share: float = 0.1,
         reached_share: float = 0.5,
         feeds_map: bool = False,
     ) -> None:
@@ -90,7 +90,7 @@ class LocalSearch:
         self.within = within
         self.variation = variation
         self.least_global = least_global
-        self.least_wide = least_wide
+        self.wide_share = wide_share
         self.reached_share = reached_share
         self.feeds_map = feeds_map
 
@@ -128,7 +128,7 @@ class LocalSearch:
         episode.state.aim(self.model.goal_key(episode.goal, episode.context))
 
     def propose(self, episodes: Sequence[Episode]) -> list[Any]:
-        """A step and a variation for each episode, or a random policy."""
+        """A step and a variation for each episode, the best policy varied, or a random one."""
         points = np.empty((len(episodes), self.space.dimension))
         stepping: dict[int, list[int]] = {}  # by the goal's kind
         for i, episode in enumerate(episodes):
@@ -155,16 +155,18 @@ class LocalSearch:
             rare = 0 < len(state.memory) * _RARE < len(self.model.memory)
             if not (rare and state.count) or rng.random() < self.least_global:
                 return rng.random(dimension)
-            return self._best_of(state) + _NEAR * rng.standard_normal(dimension)
+            return self._best_of(state) + _RARE_VARIED * rng.standard_normal(dimension)
         if rng.random() < max(self.least_global, min(1.0, state.cost)):
             return rng.random(dimension)
-        if rng.random() < self.least_wide and self._fed(state.memory) is None:
+        if rng.random() < self.wide_share and self._fed(state.memory) is None:
             return self._best_of(state) + _WIDE * rng.standard_normal(dimension)
         return None
 
     def _best_of(self, state: NearTrials) -> FloatArray:
-        policies, _ = self._gathered([state])
-        best: FloatArray = policies[0, state.best]
+        own = state.own.get(state.best)
+        if own is not None:
+            return own[0]
+        best: FloatArray = state.memory.encoded_policies(state.rows[[state.best]])[0]
         return best
 
     def _fed(self, memory: KindMemory) -> Smoothness | None:

@@ -22,6 +22,8 @@ class NearTrials:
         own: Place → policy in the unit box and key, of the episode's own trials.
         best: Place of the best one; −1 if there is none.
         cost: What it costs.
+        proposed: The policy proposed last, in the unit box.
+        told: What came of those proposed since: policy, key and cost of each.
     """
 
     __slots__ = (

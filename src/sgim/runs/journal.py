@@ -83,6 +83,8 @@ class Journal:
             ) from error
         lock = WriterLock(path.resolve())
         try:
+            if os.path.lexists(path):  # made by whoever held the lock until now
+                raise exists(path)
             db = create_file(path, header, durable=durable)
         except BaseException:
             lock.release()

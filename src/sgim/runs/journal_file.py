@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import os
 import sqlite3
+import uuid
 from collections.abc import Mapping
-from contextlib import suppress
+from contextlib import closing, suppress
 from pathlib import Path
 from typing import Any
 
 from sgim.errors import JournalError
 from sgim.runs.journal_errors import damaged, error_code, exists, explain
-from sgim.runs.journal_mode import LOGS, choose_mode, log_of
+from sgim.runs.journal_mode import BESIDE, choose_mode, log_of
 from sgim.runs.rows import SCHEMA, to_json
 
 APPLICATION_ID = 0x5347494D
@@ -36,26 +37,14 @@ def create_file(path: Path, header: Mapping[str, Any], *, durable: bool) -> sqli
     """Make a new journal without events, ready for appending.
 
     It is made under another name, so that a process killed meanwhile leaves no half of a journal
-    where one is looked for.
+    where one is looked for; the hidden file that may be left then, ``.….new``, is of no use.
 
     Raises:
         JournalError: If it exists already or cannot be made; nothing is left behind then.
     """
-    texts = [(key, to_json(value)) for key, value in header.items()]
-    new = path.with_name(f".{path.name}.new")
-    db = None
+    new = path.with_name(f".{uuid.uuid4().hex}.new")
     try:
-        new.unlink(missing_ok=True)  # of a process that was killed here
-        os.close(os.open(new, os.O_CREAT | os.O_EXCL | os.O_WRONLY, 0o666))
-        db = connect(new, "mode=rw")
-        db.execute("BEGIN IMMEDIATE")
-        for statement in SCHEMA:
-            db.execute(statement)
-        db.executemany("INSERT INTO header VALUES (?, ?)", texts)
-        db.execute(f"PRAGMA application_id = {APPLICATION_ID}")
-        db.execute(f"PRAGMA user_version = {SCHEMA_VERSION}")
-        db.execute("COMMIT")
-        db.close()
+        _fill(new, header)
         _put(new, path)
     except FileExistsError:
         raise exists(path) from None
@@ -66,29 +55,9 @@ def create_file(path: Path, header: Mapping[str, Any], *, durable: bool) -> sqli
     except sqlite3.Error as error:
         raise explain(path, error) from error
     finally:
-        if db is not None:
-            db.close()
-        with suppress(OSError):
-            new.unlink(missing_ok=True)
-    return _ready(path, durable=durable)
-
-
-def _put(new: Path, path: Path) -> None:
-    """Give a finished file its name, at once, unless there is one of that name already."""
-    for ending in LOGS:  # of a journal that was deleted without them
-        path.with_name(path.name + ending).unlink(missing_ok=True)
-    try:
-        os.link(new, path)
-    except FileExistsError:
-        raise
-    except OSError:  # a file system without links
-        if os.path.lexists(path):
-            raise FileExistsError from None
-        new.rename(path)
-
-
-def _ready(path: Path, *, durable: bool) -> sqlite3.Connection:
-    """Open a file just made for appending; remove it if that fails."""
+        for ending in ("", "-journal"):
+            with suppress(OSError):
+                new.with_name(new.name + ending).unlink(missing_ok=True)
     db = None
     try:
         db = connect(path, "mode=rw")
@@ -101,6 +70,38 @@ def _ready(path: Path, *, durable: bool) -> sqlite3.Connection:
             raise explain(path, error) from error
         raise
     return db
+
+
+def _fill(new: Path, header: Mapping[str, Any]) -> None:
+    """Make a file with a journal's tables and header, of a name that nobody else uses."""
+    texts = [(key, to_json(value)) for key, value in header.items()]
+    os.close(os.open(new, os.O_CREAT | os.O_EXCL | os.O_WRONLY, 0o666))
+    with closing(connect(new, "mode=rw")) as db:
+        db.execute("BEGIN IMMEDIATE")
+        for statement in SCHEMA:
+            db.execute(statement)
+        db.executemany("INSERT INTO header VALUES (?, ?)", texts)
+        db.execute(f"PRAGMA application_id = {APPLICATION_ID}")
+        db.execute(f"PRAGMA user_version = {SCHEMA_VERSION}")
+        db.execute("COMMIT")
+
+
+def _put(new: Path, path: Path) -> None:
+    """Give a finished file its name, at once, and no logs of a journal that was deleted.
+
+    Raises:
+        FileExistsError: If there is one of that name.
+    """
+    if os.path.lexists(path):
+        raise FileExistsError
+    for ending in BESIDE:
+        path.with_name(path.name + ending).unlink(missing_ok=True)
+    try:
+        os.link(new, path)
+    except FileExistsError:
+        raise
+    except OSError:  # a file system without links
+        new.rename(path)
 
 
 def open_file(path: Path, *, append: bool, durable: bool) -> sqlite3.Connection:

@@ -20,8 +20,11 @@ MOUNTS = Path("/proc/self/mounts")
 """Where Linux lists what is mounted."""
 
 
-LOGS = ("-wal", "-journal", "-shm")
-"""What SQLite puts beside a file, as its name ends."""
+LOGS = ("-wal", "-journal")
+"""How the names of files end in which SQLite keeps what is not in the main one."""
+
+BESIDE = (*LOGS, "-shm")
+"""How the names of all files end that SQLite puts beside the main one."""
 
 
 def choose_mode(db: sqlite3.Connection, path: Path, *, durable: bool) -> None:
@@ -69,7 +72,7 @@ def network_file_system(path: Path, mounts: Path = MOUNTS) -> str | None:
 
 def log_of(path: Path) -> str | None:
     """Name of the file beside a journal in which some of it still is, or what undoes some."""
-    for ending in LOGS[:2]:
+    for ending in LOGS:
         with suppress(FileNotFoundError):
             if os.stat(f"{path.resolve()}{ending}").st_size > 0:
                 return f"{path.resolve().name}{ending}"
