@@ -98,3 +98,16 @@ class PlainProgress:
         """The mean progress of the newest records."""
         newest = records[-self.window :]
         return sum(r.progress for r in newest) / len(newest) if newest else 0.0
+
+
+def proposals(
+    search: Any,
+    goal: Goal,
+    context: np.ndarray | None = None,
+    count: int = 8,
+    seed: int = 0,
+) -> list[np.ndarray]:
+    """What is proposed again and again while nothing is told: steps of every sort."""
+    episode = episode_for(search.model, goal, context, seed)
+    search.begin(episode)
+    return [search.propose([episode])[0] for _ in range(count)]
