@@ -20,6 +20,7 @@ from sgim.spaces import Box, FloatArray
 _BLUR = 0.1  # Policies this much nearer than the farthest, squared, weigh alike: noise.
 _SPREAD = (0.1, 0.3)  # Least and largest size of a variation that feeds a map, over its length.
 _RARE_VARIED, _WIDE = 0.05, 0.1  # Standard deviations of all coordinates, in the unit box.
+_COARSE = 0.01  # From this cost on a goal has its full share of wide variations.
 _RARE = 10  # Of so many trials less than one produced what is rare.
 _WIDEST = 1.0  # Of the standard deviation of a varied policy's coordinates in the unit box.
 _BLOCK = 128  # Episodes whose arrays are stacked at once, so that they stay in a cache.
@@ -44,7 +45,8 @@ class LocalSearch:
 
     A map that is fitted near the best policy may home in on the best there is near it, and no
     nearer. So now and then the best policy is varied in all coordinates by about a tenth of their
-    range instead, as in random goal babbling. And where one or two trials of a rare kind are all
+    range instead, as in random goal babbling; the seldomer, the less is lacking, as from near a
+    goal hardly one of them would come nearer. And where one or two trials of a rare kind are all
     that is known, the better one is varied, by half of that, since the next random policy that
     produces it may be hundreds away.
 
@@ -63,7 +65,7 @@ class LocalSearch:
             of what is lacking.
         least_global: Least probability of a random policy.
         wide_share: Probability of a wide variation of the best policy instead of a step, unless
-            variations feed a map.
+            variations feed a map. In proportion less where the goal's cost is below 0.01.
         reached_share: An episode has nothing left to gain when its goal is within the task's
             tolerance and its cost at most this share of what it was before.
         feeds_map: Whether variations are of the size that suits the map, where there is noise.
@@ -158,7 +160,8 @@ class LocalSearch:
             return self._best_of(state) + _RARE_VARIED * rng.standard_normal(dimension)
         if rng.random() < max(self.least_global, min(1.0, state.cost)):
             return rng.random(dimension)
-        if rng.random() < self.wide_share and self._fed(state.memory) is None:
+        wide = self.wide_share * min(1.0, state.cost / _COARSE)
+        if rng.random() < wide and self._fed(state.memory) is None:
             return self._best_of(state) + _WIDE * rng.standard_normal(dimension)
         return None
 
