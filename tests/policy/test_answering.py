@@ -1,8 +1,6 @@
 """The ways of answering: which remembered policy, or which other, a goal is answered with."""
 
 from collections.abc import Callable
-from functools import partial
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -16,7 +14,7 @@ from sgim.errors import SgimError, UnknownNameError
 from sgim.memory import Memory
 from sgim.policy import ANSWERING, LocalModel, NearestModel, Reliable, answering_of
 from sgim.records import Goal, Trial
-from sgim.runs import Benchmark, Run, evaluate, open_repertoire
+from sgim.runs import Benchmark, Run, evaluate
 from sgim.spaces import Box, Choices
 from sgim.task import Task
 
@@ -73,43 +71,6 @@ def test_where_outcomes_change_smoothly_it_goes_between_what_was_tried() -> None
     assert local < 0.5 * nearest
 
 
-class Jumps:
-    """Outcomes that jump where two parameters change sign: tried at random, it looks like noise."""
-
-    deterministic = True
-
-    def __init__(self) -> None:
-        self.task = Task(Box(-np.ones(6), np.ones(6)), {"place": Box([-1, -1], [1, 1])})
-
-    def execute(self, policy: Any, context: Any = None, rng: Any = None) -> dict[str, Any]:
-        b = np.asarray(policy)
-        side, other = np.sign(b[1] * b[2]), np.sign(b[0] - b[4])
-        return {"place": np.array([0.5 * (b[0] + side), 0.7 * b[3] + 0.3 * other])}
-
-
-def test_a_world_that_says_it_is_deterministic_is_believed(tmp_path: Path) -> None:
-    world, path = Jumps(), tmp_path / "jumps.sgim"
-    goals = [
-        Goal("place", world.execute(b)["place"])
-        for b in np.random.default_rng(1).uniform(-1, 1, (80, 6))
-    ]
-    learner = algorithms.make("random-goal-babbling", world.task, seed=3)
-    with Run(learner, world, journal=path) as run:
-        run.go(1000)
-    benchmark = Benchmark(goals, world)
-    nearest = evaluate(learner, benchmark, by="nearest")["total"]
-    assert evaluate(learner, benchmark)["total"] <= nearest
-    opened = open_repertoire(path)
-    assert evaluate(opened, benchmark) == evaluate(learner, benchmark)
-    # Who only sees the trials takes jumps for noise, and gives up what would come again.
-    seen = algorithms.make("random-goal-babbling", world.task, seed=3)
-    for number in range(1000):
-        seen.observe(learner.model.memory.trial(number))
-    assert evaluate(seen, benchmark)["total"] > nearest
-    seen.declare_deterministic()
-    assert evaluate(seen, benchmark) == evaluate(learner, benchmark)
-
-
 def test_it_does_not_go_where_the_kind_may_not_be_produced() -> None:
     """On a thin, bent layer of policies, steps by the map of those that produced would leave it."""
     task = Task(Box(np.zeros(4), np.ones(4)), {"place": Box([0, 0], [1, 1])})
@@ -157,75 +118,6 @@ def test_the_reliable_and_the_kernel_way_prefer_what_comes_again() -> None:
         answering = answering_of(way)
         chosen = NearestModel(model.memory, answering).best_policy(goal, None)
         assert chosen[0] < 0.5, way
-
-
-@pytest.mark.parametrize("uneven", [False, True])
-def test_where_noise_is_uneven_a_local_model_answers_where_outcomes_scatter_little(
-    uneven: bool,
-) -> None:
-    rng = np.random.default_rng(0)
-
-    def scatter(policy: Any) -> float:
-        return (2.0 if int(20 * policy[0]) % 5 == 0 else 0.1) if uneven else 0.1
-
-    def outcome(policy: Any) -> dict[str, Any]:
-        place = plane(policy)["place"] + np.sin(policy @ [3.0, 4.0])
-        return {"place": place + scatter(policy) * rng.standard_normal(2)}
-
-    model = remember(PLANE, outcome, random_policies(PLANE, 600))
-    model.answering = LocalModel()
-    memory = model.memory.kinds["place"]
-    known = model.smoothness(memory)
-    assert known is not None
-    assert known.noisy
-    assert known.trusted != uneven
-    goals = [Goal("place", outcome(b)["place"]) for b in random_policies(PLANE, 50, 1)]
-    keys = model.memory.keys("place", [goal.point for goal in goals], [None] * len(goals))
-    wild = {}
-    for name in ("nearest", "local"):
-        answers = answering_of(name).answers(memory, keys)
-        policies = memory.encoded_policies(np.array([answer.row for answer in answers]))
-        wild[name] = np.mean([scatter(policy) > 1 for policy in policies])
-        assert all(a.policy is None for a in answers) == (uneven or name == "nearest")
-    assert (wild["local"] < 0.5 * wild["nearest"]) == uneven
-
-
-def test_the_map_of_noisy_outcomes_is_known_while_noise_is_undecided() -> None:
-    undecided = PlanarArm(40, limit=np.radians(7))
-    still = PlanarArm(12, limit=np.radians(10), noise=0)
-    for arm, given in ((undecided, True), (still, False)):
-        rng = np.random.default_rng(1)
-        outcome = partial(arm.execute, context=None, rng=rng)
-        model = remember(arm.task, outcome, random_policies(arm.task, 300))
-        model.answering = LocalModel()
-        memory = model.memory.kinds["hand"]
-        known = model.smoothness(memory)
-        assert known is not None
-        assert not known.noisy
-        assert known.noiseless != given
-        assert (model.map_of_noisy(memory) is not None) == given
-
-
-def test_where_outcomes_jump_and_nobody_says_so_a_local_model_is_nearer_than_the_kernel_mean() -> (
-    None
-):
-    task = Task(Box(-1, 1, names=list("abcd")), {"x": Box(-2, 2, names=["u", "v"])})
-
-    def outcome(p: Any) -> dict[str, Any]:
-        return {"x": np.array([p[0] + np.sign(p[1] * p[2]), p[3] + np.sign(p[0] - p[3])])}
-
-    model = remember(task, outcome, random_policies(task, 600))
-    memory = model.memory.kinds["x"]
-    known = model.smoothness(memory)
-    assert known is not None
-    assert known.uneven
-    goals = [Goal("x", outcome(p)["x"]) for p in random_policies(task, 60, 1)]
-    error = {}
-    for name in ("kernel", "local"):
-        model.answering = answering_of(name)
-        reached = [outcome(model.best_policy(goal, None))["x"] - goal.point for goal in goals]
-        error[name] = float(np.linalg.norm(reached, axis=1).mean())
-    assert error["local"] < 0.9 * error["kernel"]
 
 
 @pytest.mark.parametrize("way", WAYS)

@@ -66,19 +66,17 @@ class Around:
         known = (covariances[:, None] @ self.inverses @ covariances[:, :, None])[:, 0, 0]
         return outcomes, np.maximum(self.smoothness.alone - known, 0.0)
 
-    def best(
-        self, goal: FloatArray, risks: FloatArray | None = None
-    ) -> tuple[int, FloatArray, float]:
-        """The centre expected to come nearest, its expected outcome and mean squared distance.
+    def expected_for(self, goal: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """The outcomes expected at the centres, and their mean squared distances from a goal.
 
         Args:
             goal: The goal, shape ``(d,)``.
-            risks: What is added to each centre's distance, shape ``(m,)``; nothing if not given.
+
+        Returns:
+            Outcomes, shape ``(m, d)``, and squared distances, noise not counted, shape ``(m,)``.
         """
         expected, uncertain = self.expected()
-        misses = ((expected - goal) ** 2).sum(axis=1) + uncertain * self.variances
-        best = int(np.argmin(misses if risks is None else np.sqrt(misses) + risks))
-        return best, expected[best], float(misses[best])
+        return expected, ((expected - goal) ** 2).sum(axis=1) + uncertain * self.variances
 
     def may_produce(self, count: int) -> FloatArray:
         """Outcomes that the first centre may produce, each as likely as another: ``(count, d)``.

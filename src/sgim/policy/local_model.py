@@ -14,7 +14,7 @@ from sgim.policy.learned_smoothness import learned
 from sgim.policy.smoothness import ENOUGH, Smoothness
 from sgim.spaces import Box, FloatArray
 
-_DECIDEDLY = 0.5  # Of the nearest outcome's error, what another policy may miss by.
+_DECIDEDLY = 0.5  # Of an error that is known for certain, what another policy may miss by.
 _FIRST = 16  # Trials, from which the map is learned first.
 _SELDOM = 2  # Doublings after which it is learned again for those who ask at every trial.
 
@@ -31,10 +31,15 @@ class LocalModel:
     leaving out each of those trials in turn.
 
     Where a policy always has the outcome that it had, the nearest remembered outcome comes again,
-    and another policy is given only where it decidedly promises more: where the error to be
-    expected is at most half of the nearest one's. It is what the model misses of like policies, and
-    1 by the chance that the kind is not produced at all. That is so if the world says it
-    (`Memory.declare_deterministic`), or if there is decidedly no noise in what was tried.
+    and another policy is given only where it promises more. The error to be expected is what the
+    model misses of like policies, and 1 by the chance that the kind is not produced at all. If the
+    world says that it is so (`Memory.declare_deterministic`) that error must be at most half of the
+    nearest one's, which is certain then; if there is decidedly no noise in what was tried, less.
+
+    What the map takes for noise may be jumps instead, after which the same outcome comes again,
+    unless there is little of it (`Smoothness.may_jump`). Then both are held for as likely: a trial
+    costs the mean of what the map expects of it, noise included, and of its own distance, and a
+    step, which knows only the first, must promise more than that.
 
     Where policies or outcomes are not vectors it answers as `Nearest` does. Where there is
     decidedly noise and no map shows, or the map misses most policies by little and a few by much,
@@ -85,11 +90,11 @@ class LocalModel:
         return Nearest().answers(memory, keys)
 
     def _surer(self, memory: KindMemory, keys: FloatArray, smoothness: Smoothness) -> list[Answer]:
-        """The nearest outcome's policy, or another where that decidedly promises more."""
+        """The nearest outcome's policy, or another where that promises more."""
         answers = Nearest().answers(memory, keys)
         rows = np.array([answer.row for answer in answers])
         known = np.sqrt(((memory.keys.rows[rows] - keys) ** 2).sum(axis=1))
-        worth = _DECIDEDLY * known
+        worth = (_DECIDEDLY if memory.deterministic else 1.0) * known
         risks = memory.chance_of_failing(memory.encoded_policies(rows), self.near_policies)
         better: dict[int, tuple[Answer, float]] = {}
         for i in np.flatnonzero(risks < worth).tolist():
@@ -185,31 +190,38 @@ class LocalModel:
         If failures are heeded the chance that it produces nothing of the kind, a cost of 1, is
         added to the distance: where noise decides that, what is remembered is what went well.
         """
-        _, rows = memory.nearest(key, self.among)
+        distances, rows = memory.nearest(key, self.among)
         outcomes, inputs = taken(memory, rows)
         goal, context = key[: outcomes.shape[1]], key[outcomes.shape[1] :]
         dimension = inputs.shape[1] - len(context)
         centres = inputs[:candidates].copy()
         centres[:, dimension:] = context
         around = Around(inputs, outcomes, centres, smoothness, self.near_policies)
-        risks = None
-        if failures:
-            risks = memory.chance_of_failing(centres[:, :dimension], self.like_policies)
-        best, expected, square = around.best(goal, risks)
-        remembered = Answer(int(rows[best]), None, expected)
-        cost = math.sqrt(square)
-        start = centres[best, :dimension]
-        policy, further = start, None
+
+        def risks(policies: FloatArray) -> FloatArray:
+            if not failures:
+                return np.zeros(len(policies))
+            return memory.chance_of_failing(policies, self.like_policies)
+
+        noise = smoothness.deviation**2 if smoothness.may_jump else 0.0
+        expected, squares = around.expected_for(goal)
+        risky = risks(centres[:, :dimension])
+        promised = np.sqrt(squares + noise) + risky
+        costs = promised
+        if smoothness.may_jump:  # as likely as not, a trial's own outcome comes again
+            costs = (promised + distances[:candidates] + risky) / 2
+        best, start = int(np.argmin(costs)), int(np.argmin(promised))
+        remembered = Answer(int(rows[best]), None, expected[best])
+        origin = centres[start, :dimension]
+        policy, outcome, square = origin, expected[start], float(squares[start])
         for _ in range(self.steps):
-            stepped = around.step(best, policy - start, goal, expected)
+            stepped = around.step(start, policy - origin, goal, outcome)
             if stepped is None or stepped[2] >= square:
                 break
-            further, expected, square = stepped
-            policy = start + further
-        if further is None:
+            further, outcome, square = stepped
+            policy = origin + further
+        if policy is origin:
             return remembered
-        if risks is not None:
-            risk = float(memory.chance_of_failing(policy[None], self.like_policies)[0])
-            if math.sqrt(square) + risk > cost + float(risks[best]):
-                return remembered
-        return Answer(int(rows[best]), policy, expected)
+        if math.sqrt(square + noise) + float(risks(policy[None])[0]) > costs[best]:
+            return remembered
+        return Answer(int(rows[start]), policy, outcome)

@@ -110,6 +110,11 @@ class Smoothness:
         return self.enough and self.even < _EVEN and not little
 
     @property
+    def may_jump(self) -> bool:
+        """Whether what looks like noise may be jumps: there is decidedly some, and not little."""
+        return self.evidence > _DECISIVE and self.noise > _CLEAR
+
+    @property
     def drowned(self) -> bool:
         """Whether there is so much noise that no map can show."""
         return self.noise > _DROWNED
@@ -117,8 +122,7 @@ class Smoothness:
     @property
     def guides(self) -> bool:
         """Whether its map can say what to try: what it misses must not look like jumps."""
-        jumps = self.even < _EVEN or (self.evidence > _DECISIVE and self.noise > _CLEAR)
-        return not self.drowned and not jumps
+        return not self.drowned and not self.may_jump and self.even >= _EVEN
 
     def correlation(self, squares: FloatArray) -> FloatArray:
         """Of the signal, over squared distances by the metric."""
