@@ -66,18 +66,6 @@ class Around:
         known = (covariances[:, None] @ self.inverses @ covariances[:, :, None])[:, 0, 0]
         return outcomes, np.maximum(self.smoothness.alone - known, 0.0)
 
-    def expected_for(self, goal: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """The outcomes expected at the centres, and their mean squared distances from a goal.
-
-        Args:
-            goal: The goal, shape ``(d,)``.
-
-        Returns:
-            Outcomes, shape ``(m, d)``, and squared distances, noise not counted, shape ``(m,)``.
-        """
-        expected, uncertain = self.expected()
-        return expected, ((expected - goal) ** 2).sum(axis=1) + uncertain * self.variances
-
     def may_produce(self, count: int) -> FloatArray:
         """Outcomes that the first centre may produce, each as likely as another: ``(count, d)``.
 

@@ -11,10 +11,12 @@ from sgim.memory.memory import KindMemory
 from sgim.policy.answering import Answer, KernelMean, Nearest
 from sgim.policy.around import Around, taken
 from sgim.policy.learned_smoothness import learned
+from sgim.policy.repeats import repeats
 from sgim.policy.smoothness import ENOUGH, Smoothness
 from sgim.spaces import Box, FloatArray
 
 _DECIDEDLY = 0.5  # Of an error that is known for certain, what another policy may miss by.
+_UNSEEN = 2  # Repeated trials that it takes to know noise from jumps as well as nobody does.
 _FIRST = 16  # Trials, from which the map is learned first.
 _SELDOM = 2  # Doublings after which it is learned again for those who ask at every trial.
 
@@ -37,9 +39,10 @@ class LocalModel:
     nearest one's, which is certain then; if there is decidedly no noise in what was tried, less.
 
     What the map takes for noise may be jumps instead, after which the same outcome comes again,
-    unless there is little of it (`Smoothness.may_jump`). Then both are held for as likely: a trial
-    costs the mean of what the map expects of it, noise included, and of its own distance, and a
-    step, which knows only the first, must promise more than that.
+    unless there is little of it (`Smoothness.may_jump`). Policies that were tried again tell which
+    share is noise, and without them it is half. A trial is then expected to produce the mean of the
+    map's and its own outcome, weighted by that share and the rest of it, and a step, of which only
+    the map is known, has to promise more in spite of where it may jump.
 
     Where policies or outcomes are not vectors it answers as `Nearest` does. Where there is
     decidedly noise and no map shows, or the map misses most policies by little and a few by much,
@@ -70,6 +73,7 @@ class LocalModel:
         self.among = among
         self.steps = steps
         self._learned: dict[KindMemory, dict[int, Smoothness | None]] = {}
+        self._repeats: dict[KindMemory, tuple[int, int, float]] = {}
 
     def answers(self, memory: KindMemory, keys: FloatArray) -> list[Answer]:
         """The policy expected to come nearest to each goal."""
@@ -125,7 +129,10 @@ class LocalModel:
         if len(memory) < _FIRST or not boxes:
             return None
         times = (len(memory) // _FIRST).bit_length() - 1
-        count = _FIRST << times - times % doublings
+        return self._from(memory, _FIRST << times - times % doublings)
+
+    def _from(self, memory: KindMemory, count: int) -> Smoothness | None:
+        """What so many trials teach of the map."""
         known = self._learned.setdefault(memory, {})
         if count not in known:
             outcomes, inputs = taken(memory, slice(0, count))
@@ -190,7 +197,7 @@ class LocalModel:
         If failures are heeded the chance that it produces nothing of the kind, a cost of 1, is
         added to the distance: where noise decides that, what is remembered is what went well.
         """
-        distances, rows = memory.nearest(key, self.among)
+        _, rows = memory.nearest(key, self.among)
         outcomes, inputs = taken(memory, rows)
         goal, context = key[: outcomes.shape[1]], key[outcomes.shape[1] :]
         dimension = inputs.shape[1] - len(context)
@@ -203,25 +210,53 @@ class LocalModel:
                 return np.zeros(len(policies))
             return memory.chance_of_failing(policies, self.like_policies)
 
-        noise = smoothness.deviation**2 if smoothness.may_jump else 0.0
-        expected, squares = around.expected_for(goal)
-        risky = risks(centres[:, :dimension])
-        promised = np.sqrt(squares + noise) + risky
-        costs = promised
-        if smoothness.may_jump:  # as likely as not, a trial's own outcome comes again
-            costs = (promised + distances[:candidates] + risky) / 2
-        best, start = int(np.argmin(costs)), int(np.argmin(promised))
+        # A trial's outcome is the map's, a jump, which comes again, and noise, which does not.
+        luck = self._luck(memory, smoothness)
+        jumps = (1 - luck) * smoothness.deviation**2
+        mapped, uncertain = around.expected()
+        uncertain *= around.variances
+        expected = luck * mapped + (1 - luck) * outcomes[:candidates]
+        squares = ((expected - goal) ** 2).sum(axis=1) + luck**2 * uncertain + luck * jumps
+        costs = np.sqrt(squares) + risks(centres[:, :dimension])
+        best = int(np.argmin(costs))
         remembered = Answer(int(rows[best]), None, expected[best])
-        origin = centres[start, :dimension]
-        policy, outcome, square = origin, expected[start], float(squares[start])
+        # From there, steps by the map alone.
+        start, outcome = centres[best, :dimension], mapped[best]
+        square = float(((outcome - goal) ** 2).sum() + uncertain[best])
+        policy = start
         for _ in range(self.steps):
-            stepped = around.step(start, policy - origin, goal, outcome)
+            stepped = around.step(best, policy - start, goal, outcome)
             if stepped is None or stepped[2] >= square:
                 break
             further, outcome, square = stepped
-            policy = origin + further
-        if policy is origin:
+            policy = start + further
+        if policy is start:
             return remembered
-        if math.sqrt(square + noise) + float(risks(policy[None])[0]) > costs[best]:
+        if math.sqrt(square + jumps) + float(risks(policy[None])[0]) > costs[best]:
             return remembered
-        return Answer(int(rows[start]), policy, outcome)
+        return Answer(int(rows[best]), policy, outcome)
+
+    def _luck(self, memory: KindMemory, smoothness: Smoothness) -> float:
+        """Which share of what the map takes for noise is noise, and not jumps that come again.
+
+        Trials of policies that were tried before tell. Without them it is half.
+        """
+        if not (smoothness.may_jump or self._tried_again(memory)):
+            return 1.0
+        known = self._repeats.get(memory)
+        if known is None or known[0] != len(memory):
+            outcomes, inputs = taken(memory, slice(None))
+            known = self._repeats[memory] = (len(memory), *repeats(inputs, outcomes))
+        _, again, variance = known
+        seen = again * min(variance / smoothness.deviation**2, 1.0)
+        return (seen + _UNSEEN / 2) / (again + _UNSEEN)
+
+    def _tried_again(self, memory: KindMemory) -> bool:
+        """Whether a search had reason to try policies again (see `map_of_noisy`)."""
+        count = ENOUGH
+        while count <= len(memory):
+            known = self._from(memory, count)
+            if known is not None and known.trusted and known.may_jump:
+                return True
+            count <<= _SELDOM
+        return False

@@ -20,6 +20,7 @@ from sgim.spaces import Box, FloatArray
 _BLUR = 0.1  # Policies this much nearer than the farthest, squared, weigh alike: noise.
 _SPREAD = (0.1, 0.3)  # Least and largest size of a variation that feeds a map, over its length.
 _RARE_VARIED, _WIDE = 0.05, 0.1  # Standard deviations of all coordinates, in the unit box.
+_REPEATED = 0.05  # Of policies, where it must be told noise from jumps.
 _COARSE = 0.01  # From this cost on a goal has its full share of wide variations.
 _RARE = 10  # Of so many trials less than one produced what is rare.
 _WIDEST = 1.0  # Of the standard deviation of a varied policy's coordinates in the unit box.
@@ -53,7 +54,9 @@ class LocalSearch:
     Homing in pays where the best outcome comes again. Where there is noise it may have been luck,
     answers come from a map that is smoothed over like policies (`LocalModel`), and such a map is
     fed by policies that lie as far apart as it is about linear. So, once there is one, variations
-    are of that size, whatever is lacking.
+    are of that size, whatever is lacking. What looks like noise may be jumps, after which the same
+    outcome comes again. Where there is not little of it, one policy in twenty is the best one once
+    more, to tell.
 
     Contexts are part of the outcomes here, so a step also makes up for the present context.
 
@@ -160,8 +163,11 @@ class LocalSearch:
             return self._best_of(state) + _RARE_VARIED * rng.standard_normal(dimension)
         if rng.random() < max(self.least_global, min(1.0, state.cost)):
             return rng.random(dimension)
+        fed = self._fed(state.memory)
+        if fed is not None and fed.may_jump and rng.random() < _REPEATED:
+            return self._best_of(state)
         wide = self.wide_share * min(1.0, state.cost / _COARSE)
-        if rng.random() < wide and self._fed(state.memory) is None:
+        if rng.random() < wide and fed is None:
             return self._best_of(state) + _WIDE * rng.standard_normal(dimension)
         return None
 
