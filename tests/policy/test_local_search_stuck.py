@@ -92,3 +92,29 @@ def test_batches_with_a_rare_kind_are_decided_as_one_by_one() -> None:
     for _ in range(3):
         expected = [search.propose([episode])[0].tolist() for episode in apart]
         assert [policy.tolist() for policy in search.propose(together)] == expected
+
+
+@pytest.mark.parametrize(("noise", "share"), [(0.03, 0.0), (0.2, 0.05)])
+def test_where_noise_may_be_jumps_the_best_policy_is_tried_again(
+    noise: float, share: float
+) -> None:
+    task = Task(Box(-1, 1, names=list("abcd")), {"x": Box(-2, 2, names=["u", "v"])})
+    rng = np.random.default_rng(5)
+
+    def noisy(p: np.ndarray) -> dict[str, np.ndarray]:
+        smooth = np.array([p[0] + p[1] * p[2], p[3] - p[0] * p[1]])
+        return {"x": smooth + rng.normal(0, noise, 2)}
+
+    model = remember(task, noisy, random_policies(task, 300))
+    memory = model.memory.kinds["x"]
+    known = model.map_of_noisy(memory)
+    assert known is not None
+    assert known.may_jump == (share > 0)
+    search = LocalSearch(model, least_global=0.0, feeds_map=True)
+    again = []
+    for goal in [Goal("x", noisy(policy)["x"]) for policy in random_policies(task, 100, 1)]:
+        _, rows = model.neighbours([goal], [None])
+        best = memory.encoded_policies(rows[0, :1])[0]
+        drawn = np.array([task.policy_space.encode(p) for p in proposals(search, goal, count=20)])
+        again.append(np.abs(drawn - best).max(axis=1) < 1e-12)
+    assert np.mean(again) == pytest.approx(share, abs=0.02)
