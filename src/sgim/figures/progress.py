@@ -44,19 +44,19 @@ def progress(journals: Iterable[str | Path | RecordedRun]) -> Figure:
     everyone = [run for members in groups.values() for run in members]
     colours = mode_colours({mode for run in everyone for mode in run.openings.modes})
     end = max(run.movements for run in everyone)
-    figure = new_figure(8.0, 0.7 + 1.9 * len(groups) + 0.1 * len(colours))
+    figure = new_figure(8.0, 0.7 + 2.1 * len(groups) + 0.1 * len(colours))
     panels = figure.subplots(len(groups), 2, squeeze=False)
     for (left, right), (name, members) in zip(panels, groups.items(), strict=True):
         edges = windows(members)
         openings = Openings.pooled(run.openings for run in members)
         draw_shares(left, openings, edges, "modes", colours, end)
-        many = f"\n({len(members)} runs)" if len(members) > 1 else ""
-        left.set_ylabel(name + many)
+        many = f", {len(members)} runs" if len(members) > 1 else ""
+        left.set_title(name + many, loc="left", fontsize=9)
+        left.set_ylabel("share of episodes")
+        right.set_ylabel("competence gained\nper movement")
         _draw_gains(right, members, edges, colours, end)
         tidy(left)
         tidy(right)
-    panels[0, 0].set_title("share of episodes")
-    panels[0, 1].set_title("competence gained per movement")
     for axes in panels[-1]:
         axes.set_xlabel("movements")
     from matplotlib.patches import Patch
