@@ -70,7 +70,7 @@ class Configuration(MixtureSettings):
         reached_share: Local search ends an episode when its goal is within the task's tolerance
             and its cost at most this share of what it was before.
         feeds_map: Whether local search varies policies, where there is noise, by what suits the map
-            that answers, instead of by what is lacking.
+            that answers, instead of by what is lacking, and tries some again where it may be jumps.
         interest: What makes a goal interesting: recent ``"progress"`` in regions, as in the
             thesis; the ``"gain"`` that is expected of a movement; progress in a ``"mixture"`` over
             time, goals and competence, as in chapter 5; absolute progress, ``"alp-gmm"``; or

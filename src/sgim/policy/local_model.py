@@ -16,7 +16,7 @@ from sgim.policy.smoothness import ENOUGH, Smoothness
 from sgim.spaces import Box, FloatArray
 
 _DECIDEDLY = 0.5  # Of an error that is known for certain, what another policy may miss by.
-_UNSEEN = 2  # Repeated trials that it takes to know noise from jumps as well as nobody does.
+_UNSEEN = 2  # How many repeated trials must tell of jumps to be believed half.
 _FIRST = 16  # Trials, from which the map is learned first.
 _SELDOM = 2  # Doublings after which it is learned again for those who ask at every trial.
 
@@ -39,10 +39,10 @@ class LocalModel:
     nearest one's, which is certain then; if there is decidedly no noise in what was tried, less.
 
     What the map takes for noise may be jumps instead, after which the same outcome comes again,
-    unless there is little of it (`Smoothness.may_jump`). Policies that were tried again tell which
-    share is noise, and without them it is half. A trial is then expected to produce the mean of the
-    map's and its own outcome, weighted by that share and the rest of it, and a step, of which only
-    the map is known, has to promise more in spite of where it may jump.
+    unless there is little of it (`Smoothness.may_jump`). Policies that a search tried again tell
+    which share is noise. A trial is then expected to produce the mean of the map's and its own
+    outcome, weighted by that share and the rest of it, and a step, of which only the map is known,
+    has to promise more in spite of where it may jump.
 
     Where policies or outcomes are not vectors it answers as `Nearest` does. Where there is
     decidedly noise and no map shows, or the map misses most policies by little and a few by much,
@@ -158,7 +158,8 @@ class LocalModel:
         """Outcomes that an answer may produce, each as likely as another.
 
         What was remembered comes again where there is decidedly no noise. Elsewhere it is what the
-        model expects, give or take what it misses of the most alike policies.
+        model expects, give or take what it misses of the most alike policies, but as often as
+        that was seen to be jumps, what was remembered.
 
         Args:
             memory: What is remembered of the goal's kind.
@@ -182,7 +183,11 @@ class LocalModel:
         _, rows = memory.nearest(key, self.among)
         outcomes, inputs = taken(memory, rows)
         around = Around(inputs, outcomes, centre[None], smoothness, self.near_policies)
-        return around.may_produce(self.like_policies)
+        outcomes = around.may_produce(self.like_policies)
+        if answer.policy is None:
+            comes_again = 1 - self._luck(memory, smoothness)
+            outcomes[: round(comes_again * len(outcomes))] = remembered
+        return outcomes
 
     def _answer(
         self,
@@ -239,9 +244,11 @@ class LocalModel:
     def _luck(self, memory: KindMemory, smoothness: Smoothness) -> float:
         """Which share of what the map takes for noise is noise, and not jumps that come again.
 
-        Trials of policies that were tried before tell. Without them it is half.
+        All of it, but for what trials of policies that were tried before tell: those of a search
+        that had reason to try them. In other contexts nothing comes again.
         """
-        if not (smoothness.may_jump or self._tried_again(memory)):
+        settled = memory.deterministic or smoothness.noiseless or memory.context_space is not None
+        if settled or not smoothness.noise or not self._tried_again(memory):
             return 1.0
         known = self._repeats.get(memory)
         if known is None or known[0] != len(memory):
@@ -249,7 +256,7 @@ class LocalModel:
             known = self._repeats[memory] = (len(memory), *repeats(inputs, outcomes))
         _, again, variance = known
         seen = again * min(variance / smoothness.deviation**2, 1.0)
-        return (seen + _UNSEEN / 2) / (again + _UNSEEN)
+        return (seen + _UNSEEN) / (again + _UNSEEN)
 
     def _tried_again(self, memory: KindMemory) -> bool:
         """Whether a search had reason to try policies again (see `map_of_noisy`)."""

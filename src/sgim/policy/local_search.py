@@ -71,7 +71,8 @@ class LocalSearch:
             variations feed a map. In proportion less where the goal's cost is below 0.01.
         reached_share: An episode has nothing left to gain when its goal is within the task's
             tolerance and its cost at most this share of what it was before.
-        feeds_map: Whether variations are of the size that suits the map, where there is noise.
+        feeds_map: Whether variations are of the size that suits the map, where there is noise, and
+            policies are tried again where that may be jumps.
     """
 
     def __init__(
@@ -164,7 +165,7 @@ class LocalSearch:
         if rng.random() < max(self.least_global, min(1.0, state.cost)):
             return rng.random(dimension)
         fed = self._fed(state.memory)
-        if fed is not None and fed.may_jump and rng.random() < _REPEATED:
+        if self._to_be_told(fed) and rng.random() < _REPEATED:
             return self._best_of(state)
         wide = self.wide_share * min(1.0, state.cost / _COARSE)
         if rng.random() < wide and fed is None:
@@ -177,6 +178,10 @@ class LocalSearch:
             return own[0]
         best: FloatArray = state.memory.encoded_policies(state.rows[[state.best]])[0]
         return best
+
+    def _to_be_told(self, fed: Smoothness | None) -> bool:
+        """Whether noise is to be told from jumps, as it can be where no context differs."""
+        return fed is not None and fed.may_jump and self.model.memory.task.context_space is None
 
     def _fed(self, memory: KindMemory) -> Smoothness | None:
         """The map that variations are to feed; None if there is none."""
