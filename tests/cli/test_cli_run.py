@@ -195,6 +195,7 @@ def test_a_decision_that_comes_out_otherwise_is_adopted_only_when_told(
             break  # Only decisions of episodes that go on are made again.
         interrupt_at(1)
         sgim("resume", "a.sgim")
+    assert _last_event(tmp_path / "a.sgim") != "closed"
     with sqlite3.connect(tmp_path / "a.sgim") as db:
         db.execute(
             "UPDATE events SET policy = zeroblob(112) WHERE seq = "

@@ -12,6 +12,7 @@ from sgim import algorithms
 from sgim.environments import PlanarArm
 from sgim.environments.benchmark_goals import reachable_goals
 from sgim.policy import LocalModel, NearestModel, answering_of
+from sgim.policy.answering import Answer
 from sgim.records import Goal
 from sgim.runs import Benchmark, Run, evaluate, open_repertoire
 from sgim.spaces import Box
@@ -184,14 +185,40 @@ def test_a_map_that_no_longer_takes_anything_for_noise_answers() -> None:
     def outcome(p: Any) -> dict[str, Any]:
         return {"x": np.array([p[0] + 0.1 * np.sin(40 * p[1]), p[1] + 0.1 * np.sin(40 * p[0])])}
 
-    model = remember(task, outcome, random_policies(task, 4100))
-    way = model.answering = LocalModel()
-    memory = model.memory.kinds["x"]
-    now = way.smoothness(memory)
+    policies = random_policies(task, 4100)
+    few = LocalModel().smoothness(remember(task, outcome, policies[:1100]).memory.kinds["x"])
+    assert few is not None
+    assert few.trusted
+    assert few.may_jump
+    model = remember(task, outcome, policies)
+    now = LocalModel().smoothness(model.memory.kinds["x"])
     assert now is not None
     assert now.noise == 0.0
     goals = [Goal("x", outcome(p)["x"]) for p in random_policies(task, 20, 1)]
     assert missed(model, "local", goals, outcome) < missed(model, "nearest", goals, outcome)
+
+
+def test_what_a_teacher_repeats_tells_nothing_where_no_search_had_reason_to() -> None:
+    """Demonstrations may have been chosen for repeating well."""
+    rng = np.random.default_rng(5)
+
+    def outcome(p: Any) -> dict[str, Any]:
+        smooth = np.array([p[0] + p[1] * p[2], p[3] - p[0] * p[1]])
+        return {"x": smooth + rng.normal(0, 0.03, 2)}
+
+    model = remember(FOUR, outcome, random_policies(FOUR, 300))
+    memory, goals = model.memory, [Goal("x", outcome(p)["x"]) for p in random_policies(FOUR, 20, 1)]
+    known = LocalModel().smoothness(memory.kinds["x"])
+    assert known is not None
+    assert known.trusted
+    assert not known.may_jump
+    memory.extend([memory.trial(number) for number in range(60)])
+    way, kind = LocalModel(), memory.kinds["x"]
+    for key in memory.keys("x", [goal.point for goal in goals], [None] * len(goals)):
+        (answer,) = way.answers(kind, key[None])
+        again = Answer(answer.row)  # to do what was remembered once more
+        assert np.ptp(way.prospects(kind, again, key), axis=0).min() > 0.005
+        assert len(np.unique(way.prospects(kind, again, key), axis=0)) == 10
 
 
 def test_where_there_is_decidedly_no_noise_a_map_that_promises_more_is_followed() -> None:
